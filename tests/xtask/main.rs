@@ -36,6 +36,7 @@ mod recordings;
 mod release;
 mod report;
 mod ros2;
+mod site;
 mod sizes;
 mod supply;
 mod targets;
@@ -80,6 +81,7 @@ usage: cargo xtask COMMAND
   soak [--minutes N]    record, watch and reconfigure failing boards for 20 minutes, or N: checks memory and losses
   supply [--may-miss advisories]
                         check dependencies: sources, licences, advisories; write lists of them to target/sbom
+  site                  make the page that needs no program, in target/site: a folder for any static server
   size                  lines of the product by crate and language: not blank, no comment, no test
   package               pack the published crates, and build each from its package alone, and all with the oldest
                         dependencies allowed; compare their interfaces with the last tag. Needs a nightly compiler
@@ -118,6 +120,7 @@ fn main() -> ExitCode {
         Some("cycles") => targets::show_cycles(rest).map(|()| true),
         Some("recorded") => targets::feed_recordings(rest).map(|()| true),
         Some("peers") => targets::peers(rest).map(|()| true),
+        Some("site") if rest.is_empty() => site::run().map(|()| true),
         Some("size") if rest.is_empty() => lines::run().map(|()| true),
         Some("package") if rest.is_empty() => package::run().map(|()| true),
         Some("docs") if rest.is_empty() => docs::run().map(|()| true),

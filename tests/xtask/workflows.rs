@@ -11,10 +11,11 @@ const OLDEST: u32 = 11;
 /// Runs them, without asking the network.
 pub fn check(log: &Path) -> End {
     let judges = judges()?;
-    let [check, release] = ["check", "release"].map(|name| format!(".github/workflows/{name}.yml"));
+    let [check, release, site] =
+        ["check", "release", "site"].map(|name| format!(".github/workflows/{name}.yml"));
     let judged: [(&str, &[&str]); 4] = [
-        ("zizmor", &["--offline", &check, &release]),
-        ("check-jsonschema", &["--builtin-schema", "vendor.github-workflows", &check, &release]),
+        ("zizmor", &["--offline", &check, &release, &site]),
+        ("check-jsonschema", &["--builtin-schema", "vendor.github-workflows", &check, &release, &site]),
         ("mypy", &["--strict", "--cache-dir", "target/xtask/mypy", "tests/release"]),
         ("python", &["-m", "unittest", "discover", "--start-directory", "tests/release"]),
     ];

@@ -3,6 +3,9 @@
 //! This crate is no library: its modules are public for its tests and for the fuzzer. Programs use the crate
 //! [`taxel`].
 //!
+//! Without the feature `program` only that is there of which a page is made, in WebAssembly, too: `fault`, `palette`,
+//! `watch`, `folding`, `on_robot`, `view`, and of these what listens to no network.
+//!
 //! In the order in which they build on each other; a module imports only modules before it:
 //!
 //! | module | holds |
@@ -25,25 +28,30 @@
 #![forbid(unsafe_code)]
 
 // First: the modules below use its macros.
+#[cfg(feature = "program")]
 #[macro_use]
 mod stderr;
 
 pub mod fault;
 
+#[cfg(feature = "program")]
 mod stderr_log;
 
 pub mod palette;
 
 pub mod watch;
 
+#[cfg(feature = "program")]
 pub mod terminal;
 
 pub mod folding;
 
 pub mod on_robot;
 
+#[cfg(feature = "program")]
 pub mod report;
 
+#[cfg(feature = "program")]
 pub mod serve;
 
 pub mod view;
@@ -54,11 +62,14 @@ pub mod foxglove;
 #[cfg(feature = "ros2")]
 pub mod ros2;
 
+#[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod commands;
 
+#[cfg(feature = "program")]
 pub mod cli;
 
+#[cfg(feature = "program")]
 pub mod program;
 
 /// The error of commands and views.

@@ -13,6 +13,7 @@
 //! | module | holds |
 //! |---|---|
 //! | [`error`] | what fails, by concern, for programs and for people |
+//! | [`time`] | the clock of this machine, or of the page in WebAssembly |
 //! | [`text`] | errors in plain words, steps and progress of long work |
 //! | [`sim`] | the simulated garment and its scripts of touches |
 //! | [`files`] | safe outputs, recorded frames, garments, scripts, calibrations |
@@ -55,6 +56,8 @@
 
 #[macro_use]
 pub mod error;
+
+pub mod time;
 
 pub mod text;
 

@@ -25,6 +25,7 @@ const FILES: &[(&str, Asset)] = files![
     CSS "relief.css",
     CSS "hand.css",
     SCRIPT "main.js",
+    SCRIPT "channel.js",
     SCRIPT "socket.js",
     SCRIPT "speaker.js",
     SCRIPT "store.js",

@@ -4,8 +4,9 @@ use super::message;
 use super::shot::Shot;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel::source::shared::Shared;
+use taxel::time::Instant;
 
 /// Most log lines queued.
 const LINES: usize = 64;
@@ -120,6 +121,11 @@ impl Mailbox {
     /// Closes the queue.
     pub fn close(&self) {
         self.queue.change(|waiting| waiting.closed = true);
+    }
+
+    /// Takes the next message if one is due.
+    pub fn due(&self) -> Option<Parcel> {
+        self.queue.lock().due(Instant::now())
     }
 
     /// Waits for the next message: lines at once, images when due.

@@ -5,43 +5,57 @@
 //! [`Mailbox`] of bounded size, a newer image replaces a queued one, and each page has its own writing
 //! thread.
 
+#[cfg(feature = "program")]
 mod assets;
+#[cfg(feature = "program")]
 pub mod browser;
 mod hand;
 mod hub;
+#[cfg(feature = "program")]
 mod hubs;
 mod kept_log;
 mod line_kind;
-mod lines;
+pub mod lines;
 mod mailbox;
 pub mod message;
 mod order;
+#[cfg(feature = "program")]
 mod page;
+#[cfg(feature = "program")]
 mod past;
 mod raw;
 mod recent;
+#[cfg(feature = "program")]
 mod recorded;
+#[cfg(feature = "program")]
 mod robot;
 mod said;
 #[cfg(feature = "schema")]
 pub mod schemas;
+#[cfg(feature = "program")]
 mod server;
 mod shot;
 mod tape;
+#[cfg(feature = "program")]
 mod transfer;
 mod viewer;
 
 pub use hand::PageHand;
 pub use hub::PageHub;
+#[cfg(feature = "program")]
 pub use hubs::PageHubs;
 pub use line_kind::LineKind;
 pub use mailbox::{Mailbox, Parcel};
 pub use order::Order;
+#[cfg(feature = "program")]
 pub use page::hear;
 pub use recent::Recent;
+#[cfg(feature = "program")]
 pub use recorded::Player;
+#[cfg(feature = "program")]
 pub use robot::RobotPages;
 pub use said::Said;
+#[cfg(feature = "program")]
 pub use server::serve;
 pub use shot::Shot;
 pub use tape::Tape;

@@ -1,7 +1,8 @@
 //! Requests raw codes from the board while a pointer is on a taxel.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel::client::Client;
+use taxel::time::Instant;
 
 /// Raw codes per second: enough to read a number.
 const RATE: u16 = 10;

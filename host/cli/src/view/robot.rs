@@ -7,10 +7,11 @@ use super::said::Said;
 use super::shot::text;
 use serde::Serialize;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel::mind::{BoardSense, HostInputLine, ROBOT_INTENT, RobotMeaningLine, RobotMind};
 use taxel::robot::{BoardEvent, BoardState, ReadRobot, RobotEvent};
 use taxel::text::words;
+use taxel::time::Instant;
 
 /// Shortest time between two messages of a kind.
 const PERIOD: Duration = Duration::from_millis(100);

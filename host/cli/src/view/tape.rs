@@ -47,6 +47,7 @@ impl<S: Store> Copy<S> {
     }
 
     /// Adds a frame of the wire.
+    #[cfg(feature = "program")]
     pub fn take(&mut self, stamp: Stamp, frame: &[u8]) -> Result<()> {
         match self.client.push_all(frame).1 {
             Some(event) => self.keep(stamp, &event),

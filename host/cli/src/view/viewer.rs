@@ -13,13 +13,14 @@ use crate::folding::Folding;
 use crate::watch::rate::Rate;
 use anyhow::Result;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel::client::{Client, Event, ImageNews, Stamp};
 use taxel::files::calibrate::Calibration;
 use taxel::json;
 use taxel::record::Origin;
 use taxel::session::{JointPositions, Observer};
 use taxel::source::Source;
+use taxel::time::Instant;
 use taxel_core::format::Micros;
 use taxel_core::wire::Request;
 

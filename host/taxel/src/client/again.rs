@@ -2,8 +2,9 @@
 //! answered.
 
 use super::wanted::WantedSetting;
+use crate::time::Instant;
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel_core::wire::Request;
 
 /// Time after which an unanswered request is repeated; that of a tare is longer, because the board answers

@@ -11,8 +11,8 @@
 //! most. An empty intersection means that an assumption failed or a clock was set; then only the last trip is
 //! kept.
 
+use crate::time::{Instant, calendar};
 use std::collections::VecDeque;
-use std::time::{Instant, SystemTime};
 use taxel_core::format::Micros;
 
 /// Largest difference of the rates of the two clocks: 500 ppm. Crystals differ by 100 ppm; a host that
@@ -233,8 +233,7 @@ pub struct SteadyTime {
 impl SteadyTime {
     /// Starts now.
     pub fn start() -> SteadyTime {
-        let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
-        SteadyTime { began: Instant::now(), began_us: since.as_micros() as u64 }
+        SteadyTime { began: Instant::now(), began_us: calendar().as_micros() as u64 }
     }
 
     /// Current time, us.

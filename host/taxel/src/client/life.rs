@@ -2,7 +2,7 @@
 
 use super::again::Again;
 use super::wanted::Wanted;
-use std::time::Instant;
+use crate::time::Instant;
 use taxel_core::format::Micros;
 
 /// Tolerated error of a board's clock, besides a hundredth of the elapsed time, us.

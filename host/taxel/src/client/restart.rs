@@ -3,7 +3,8 @@
 use super::again::Restored;
 use super::{BoardDescription, Client, Event, Identity};
 use crate::files::calibrate::ForceScale;
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Receiver, Request, encode, frame_bound};
 

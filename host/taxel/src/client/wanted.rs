@@ -1,8 +1,9 @@
 //! Remembers settings that last until the board restarts, so that they can be restored.
 
 use super::{BoardDescription, cleaned};
+use crate::time::Instant;
 use std::collections::{BTreeMap, VecDeque};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel_core::condition::Certificate;
 use taxel_core::format::Name;
 use taxel_core::garment::Garment;
@@ -277,7 +278,7 @@ mod tests {
         let feed =
             Feed { concept: name("warmth"), value: Q15(1), age_ms: 70, timeout_ms: 900, default: Q15(2) };
         ask(&mut wanted, &Request::Feed(feed.clone()));
-        std::thread::sleep(Duration::from_millis(20));
+        crate::time::sleep(Duration::from_millis(20));
         let mut frame = wanted.all().pop_front().unwrap().frame;
         frame.pop();
         let Request::Feed(reported) = decode::<Request<'_>>(open(&mut frame).unwrap()).unwrap() else {

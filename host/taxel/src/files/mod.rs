@@ -1,5 +1,6 @@
 //! Files that users name: outputs, recorded frames, garments, tables of folds, bases of shapes, scripts of touches, calibrations.
 
+#[cfg(not(target_family = "wasm"))]
 pub mod arrays;
 pub mod bases;
 pub mod calibrate;

@@ -11,8 +11,9 @@
 
 use super::piece::WirePiece;
 use super::stamp::{PieceKind, PieceStamp};
+use crate::time::Instant;
 use std::collections::VecDeque;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Longest wait of contacts for images that they have overtaken, while all images come.
 pub const PATIENCE: Duration = Duration::from_millis(50);

@@ -7,8 +7,8 @@ use crate::error::Result;
 use crate::session::{JointPositions, Observer};
 use crate::source::Source;
 use crate::source::array::OriginalBytes;
+use crate::time::Instant;
 use std::sync::Arc;
-use std::time::Instant;
 
 /// Records the stream of a board into its part of a recording. A write error ends the recording and all its boards'
 /// streams: earlier data stays, and the file is completed.

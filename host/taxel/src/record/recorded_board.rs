@@ -4,7 +4,7 @@ use super::counters::Counters;
 use super::file::BoardPart;
 use super::provenance::Origin;
 use crate::client::{BoardDescription, RetainedState};
-use std::time::Instant;
+use crate::time::Instant;
 
 /// State of a board's part of a recording.
 #[derive(Debug)]

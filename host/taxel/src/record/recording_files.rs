@@ -12,12 +12,13 @@ use crate::client::clock::SteadyTime;
 use crate::error::{Context, Error, RecordingError, Result};
 use crate::files::output::{Begun, Force, Output};
 use crate::recording::{attachment_of, of_board};
+use crate::time::Instant;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Time between two flushes to the disk: the loss by a kill, plus as much again for the disk to write it.
 pub const CHUNK: Duration = Duration::from_millis(500);

@@ -30,6 +30,24 @@ impl<S: Store + ?Sized> Store for &mut S {
     }
 }
 
+/// A recording in memory.
+impl Store for Vec<u8> {
+    fn keep(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+
+    fn cut(&mut self, length: u64) -> io::Result<()> {
+        self.truncate(usize::try_from(length).unwrap_or(usize::MAX));
+        Ok(())
+    }
+
+    fn look(&mut self, offset: u64, bytes: &mut [u8]) -> io::Result<usize> {
+        let from = usize::try_from(offset).unwrap_or(usize::MAX);
+        let mut written = self.get(from..).unwrap_or(&[]);
+        written.read(bytes)
+    }
+}
+
 impl Store for File {
     fn keep(&mut self) -> io::Result<()> {
         self.sync_data()

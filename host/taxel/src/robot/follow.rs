@@ -6,12 +6,13 @@ use super::recognise::recognised;
 use super::refused::Required;
 use crate::client::clock::SteadyTime;
 use crate::client::{Buses, Client, Event, Identity, Stamp, Stamps, request_name};
-use crate::error::{ErrorKind, RecordingError, Result, SourceError};
+use crate::error::{Error, ErrorKind, RecordingError, Result, SourceError};
 use crate::session::{Observer, PATIENCE, Returns, RunLimit, Session, Turn};
 use crate::source::Source;
 use crate::text::words;
+use crate::time::Instant;
 use std::sync::mpsc::{Receiver, channel};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel_core::wire::Level;
 
 /// Time between two attempts to open a source that has not been there yet: first and longest.
@@ -88,14 +89,18 @@ pub trait Supervisor {
 
     /// Waits for so long before the next attempt to open the board, or until it is no longer to be followed.
     fn pause(&mut self, time: Duration) {
-        std::thread::sleep(time);
+        crate::time::sleep(time);
     }
 }
 
-/// A board being followed.
-struct Follower<'a> {
-    observer: &'a mut (dyn Observer + 'a),
-    supervisor: &'a mut (dyn Supervisor + 'a),
+/// A board being followed: turn by turn, for who has other things to do in the same thread.
+pub struct Following {
+    session: Session,
+    state: FollowState,
+}
+
+/// State of a board being followed.
+struct FollowState {
     stamps: Stamps,
     /// Nothing of it is passed on before it is recognised.
     is_among: bool,
@@ -112,6 +117,101 @@ struct Follower<'a> {
     is_noted: bool,
 }
 
+/// A board being followed, and who is told.
+struct Follower<'a> {
+    observer: &'a mut (dyn Observer + 'a),
+    supervisor: &'a mut (dyn Supervisor + 'a),
+    state: &'a mut FollowState,
+}
+
+/// Supervisor of a board that is followed for as long as somebody calls for its next turn.
+struct Onward;
+
+impl Supervisor for Onward {
+    fn goes_on(&mut self) -> bool {
+        true
+    }
+}
+
+impl Following {
+    /// Opens a board that is there, alone.
+    pub fn open(plan: BoardPlan, observer: &mut dyn Observer) -> Result<Following> {
+        let time = (SteadyTime::start(), Buses::default());
+        let opened = Following::begin(plan, observer, &mut Onward, time)?;
+        opened.ok_or_else(|| Error::other("it is no longer wanted"))
+    }
+
+    /// Hands over what has come since the last turn, after a short while if it is nothing. Returns false at the end.
+    pub fn turn(&mut self, observer: &mut dyn Observer) -> Result<bool> {
+        self.turn_for(observer, &mut Onward)
+    }
+
+    /// Bytes that the last turn has handed over.
+    pub fn bytes(&self) -> usize {
+        self.session.bytes().len()
+    }
+
+    /// Ends it, for the observer, too. Returns what is to be remarked.
+    pub fn end(mut self, observer: &mut dyn Observer) -> Result<Option<String>> {
+        let stamp = self.state.stamps.now(self.session.client());
+        observer.ended(self.session.client(), stamp)?;
+        let source = self.session.source();
+        Ok(source.port.remark().map(|remark| format!("{}: {remark}", source.label)))
+    }
+
+    fn turn_for(&mut self, observer: &mut dyn Observer, supervisor: &mut dyn Supervisor) -> Result<bool> {
+        Follower { observer, supervisor, state: &mut self.state }.turn(&mut self.session)
+    }
+
+    /// Takes turn after turn.
+    fn run(
+        &mut self,
+        observer: &mut dyn Observer,
+        supervisor: &mut dyn Supervisor,
+        asks: &Receiver<Ask>,
+    ) -> Result<()> {
+        while supervisor.goes_on() {
+            asks.try_iter().try_for_each(|ask| ask(&mut self.session))?;
+            if !self.turn_for(observer, supervisor)? {
+                return Ok(());
+            }
+        }
+        self.state.check_wanted(&self.session)
+    }
+
+    /// Opens a board; none if it is no longer to be followed before it is there.
+    fn begin(
+        plan: BoardPlan,
+        observer: &mut dyn Observer,
+        supervisor: &mut dyn Supervisor,
+        (time, buses): (SteadyTime, Buses),
+    ) -> Result<Option<Following>> {
+        let BoardPlan { open, waits, identity, is_among, returns, begin, gather, limit, .. } = plan;
+        let mut state = FollowState {
+            stamps: Stamps::by(time),
+            is_among,
+            is_known: false,
+            is_met: false,
+            restarts: 0,
+            required: Required::default(),
+            limit,
+            is_done: false,
+            begun: Instant::now(),
+            is_noted: false,
+        };
+        let mut follower = Follower { observer, supervisor, state: &mut state };
+        let Some(source) = follower.open(open, waits, identity.as_ref())? else { return Ok(None) };
+        follower.supervisor.opened(&source);
+        follower.observer.opened(&source)?;
+        let mut session = Session::by(time, source, returns);
+        session.gather(gather);
+        identity.into_iter().for_each(|identity| session.recognise(identity));
+        session.parts().0.share(buses);
+        state.required = begin(&mut session)?;
+        Ok(Some(Following { session, state }))
+    }
+}
+
 /// Follows a board alone, in this thread. Returns what is to be remarked at the end.
 pub fn follow_alone(
     plan: BoardPlan,
@@ -123,44 +223,19 @@ pub fn follow_alone(
 }
 
 /// Follows a board until it is over, its limit is reached, an observer is done, or it is no longer to be followed.
-/// `time` is that of all boards, `buses` are those that they may share. Returns what is to be remarked at the end.
+/// `at` is the time of all boards, and the buses that they may share. Returns what is to be remarked at the end.
 pub(super) fn follow(
     plan: BoardPlan,
     observer: &mut dyn Observer,
     supervisor: &mut dyn Supervisor,
     asks: &Receiver<Ask>,
-    (time, buses): (SteadyTime, Buses),
+    at: (SteadyTime, Buses),
 ) -> Result<Option<String>> {
-    let BoardPlan { open, waits, identity, is_among, returns, begin, gather, limit, .. } = plan;
-    let mut follower = Follower {
-        observer,
-        supervisor,
-        stamps: Stamps::by(time),
-        is_among,
-        is_known: false,
-        is_met: false,
-        restarts: 0,
-        required: Required::default(),
-        limit,
-        is_done: false,
-        begun: Instant::now(),
-        is_noted: false,
-    };
-    let Some(source) = follower.open(open, waits, identity.as_ref())? else { return Ok(None) };
-    follower.supervisor.opened(&source);
-    follower.observer.opened(&source)?;
-    let mut session = Session::by(time, source, returns);
-    session.gather(gather);
-    identity.into_iter().for_each(|identity| session.recognise(identity));
-    session.parts().0.share(buses);
-    follower.required = begin(&mut session)?;
-    let done = follower.run(&mut session, asks);
+    let Some(mut board) = Following::begin(plan, observer, supervisor, at)? else { return Ok(None) };
+    let done = board.run(observer, supervisor, asks);
     // Whatever ended it, what has come until now is whole.
-    let (client, stamp) = (session.client(), follower.stamps.now(session.client()));
-    let ended = follower.observer.ended(client, stamp);
-    done.and(ended)?;
-    let source = session.source();
-    Ok(source.port.remark().map(|remark| format!("{}: {remark}", source.label)))
+    let ended = board.end(observer);
+    done.and(ended)
 }
 
 impl Follower<'_> {
@@ -168,13 +243,15 @@ impl Follower<'_> {
     fn open(&mut self, mut open: Opener, waits: bool, identity: Option<&Identity>) -> Result<Option<Source>> {
         let (mut pause, mut reported, mut other) = (TRY[0], false, None);
         while self.supervisor.goes_on() && !self.observer.is_done() {
-            let opened = open().and_then(|source| match identity.filter(|_| self.is_among) {
+            let opened = open().and_then(|source| match identity.filter(|_| self.state.is_among) {
                 Some(identity) => recognised(source, identity),
                 None => Ok(source),
             });
             let error = match opened {
                 Ok(source) => return Ok(Some(source)),
-                Err(error) if !waits || self.limit.is_any() && self.begun.elapsed() > PATIENCE => {
+                Err(error)
+                    if !waits || self.state.limit.is_any() && self.state.begun.elapsed() > PATIENCE =>
+                {
                     return Err(error);
                 }
                 Err(error) => error,
@@ -195,40 +272,36 @@ impl Follower<'_> {
         Ok(None)
     }
 
-    fn run(&mut self, session: &mut Session, asks: &Receiver<Ask>) -> Result<()> {
-        let is_limited = self.limit.is_any();
-        while self.supervisor.goes_on() {
-            asks.try_iter().try_for_each(|ask| ask(session))?;
-            self.pose(session)?;
-            let turn = session.turn(&mut |client, bytes| self.sent(client, bytes))?;
-            for original in session.original() {
-                let stamp = self.stamps.now(session.client());
-                self.observer.original(session.client(), original, stamp)?;
-            }
-            while !self.is_done
-                && let Some(event) = session.next_event()
-            {
-                self.event(session, &event)?;
-            }
-            self.is_done |= self.limit.look(session)?;
-            while self.is_done
-                && let Some(note) = session.note()
-            {
-                self.pass(session.client(), &note)?;
-            }
-            if turn == Turn::End || self.is_done {
-                return self.check_met(session);
-            }
-            if self.is_known || !self.is_among {
-                self.observer.idle(session.parts().0)?;
-            }
-            if self.observer.is_done() {
-                break;
-            }
-            self.look_at_silence(session, is_limited)?;
+    /// Sends and reads, and hands over what has come. Returns false at the end.
+    fn turn(&mut self, session: &mut Session) -> Result<bool> {
+        self.pose(session)?;
+        let turn = session.turn(&mut |client, bytes| self.sent(client, bytes))?;
+        for original in session.original() {
+            let stamp = self.state.stamps.now(session.client());
+            self.observer.original(session.client(), original, stamp)?;
         }
-        // A board that is no longer wanted need not have been met, but whoever wanted it alone learns that it was not.
-        if self.is_among { Ok(()) } else { self.check_met(session) }
+        while !self.state.is_done
+            && let Some(event) = session.next_event()
+        {
+            self.event(session, &event)?;
+        }
+        self.state.is_done |= self.state.limit.look(session)?;
+        while self.state.is_done
+            && let Some(note) = session.note()
+        {
+            self.pass(session.client(), &note)?;
+        }
+        if turn == Turn::End || self.state.is_done {
+            return self.state.check_met(session).map(|()| false);
+        }
+        if self.state.is_known || !self.state.is_among {
+            self.observer.idle(session.parts().0)?;
+        }
+        if self.observer.is_done() {
+            return self.state.check_wanted(session).map(|()| false);
+        }
+        self.look_at_silence(session)?;
+        Ok(true)
     }
 
     /// Hands positions of joints to whoever sends the board its posture, and to the observers.
@@ -236,54 +309,43 @@ impl Follower<'_> {
         let Some((client, posing)) = session.posing() else { return Ok(()) };
         self.observer.pose(client, posing)?;
         for taken in posing.taken() {
-            let stamp = self.stamps.of_time(client, taken.time.0);
+            let stamp = self.state.stamps.of_time(client, taken.time.0);
             self.observer.joints(client, &taken, stamp)?;
         }
         Ok(())
     }
 
     /// Notes that the board has said nothing yet; error if a run of limited length has waited for it long enough.
-    fn look_at_silence(&mut self, session: &mut Session, is_limited: bool) -> Result<()> {
-        if self.is_among || session.client().description().is_some() || session.is_gone() {
+    fn look_at_silence(&mut self, session: &mut Session) -> Result<()> {
+        if self.state.is_among || session.client().description().is_some() || session.is_gone() {
             return Ok(());
         }
-        let passed = self.begun.elapsed();
-        if passed > QUIET && !std::mem::replace(&mut self.is_noted, true) {
+        let passed = self.state.begun.elapsed();
+        if passed > QUIET && !std::mem::replace(&mut self.state.is_noted, true) {
             let text = format!("no Hello yet from {}", session.source().label);
             session.say(Level::Info, text);
         }
-        if is_limited && passed > PATIENCE { self.check_met(session) } else { Ok(()) }
-    }
-
-    /// Error if the stream has ended without a board.
-    fn check_met(&self, session: &Session) -> Result<()> {
-        let (label, bytes) = (&session.source().label, session.client().counts().bytes);
-        let why = || format!("{label}: no Hello of a taxel board in {bytes} bytes");
-        match session.source().listens {
-            _ if self.is_met || session.client().description().is_some() => Ok(()),
-            true => Err(SourceError::Silent(why()).into()),
-            false => Err(RecordingError::Record(why()).into()),
-        }
+        if self.state.limit.is_any() && passed > PATIENCE { self.state.check_met(session) } else { Ok(()) }
     }
 
     /// Handles an event; passes it on if it is the board's.
     fn event(&mut self, session: &mut Session, event: &Event) -> Result<()> {
         let restarts = session.client().counts().restarts;
-        if std::mem::replace(&mut self.restarts, restarts) != restarts {
-            self.is_known = false;
+        if std::mem::replace(&mut self.state.restarts, restarts) != restarts {
+            self.state.is_known = false;
         }
         // That of another board does not come.
         if *event == Event::Hello {
-            self.is_known = true;
-            if !std::mem::replace(&mut self.is_met, true) {
+            self.state.is_known = true;
+            if !std::mem::replace(&mut self.state.is_met, true) {
                 self.supervisor.state(BoardState::Met);
             }
         }
         say(session.client(), event);
-        if self.is_among {
+        if self.state.is_among {
             match event {
                 Event::Unusable(why) => {
-                    self.is_known = false;
+                    self.state.is_known = false;
                     let why = format!("{}: {why}", session.source().label);
                     return session.reject(SourceError::Foreign(why).into());
                 }
@@ -295,7 +357,7 @@ impl Follower<'_> {
                 _ => {}
             }
         }
-        if self.is_known || !self.is_among || session.client().is_own() {
+        if self.state.is_known || !self.state.is_among || session.client().is_own() {
             self.pass(session.client(), event)?;
         }
         match event {
@@ -308,16 +370,16 @@ impl Follower<'_> {
             }
             _ => {}
         }
-        if !self.is_known && self.is_among {
+        if !self.state.is_known && self.state.is_among {
             return Ok(());
         }
-        self.is_done |= self.limit.take(event);
-        Ok(self.required.answered(&session.source().label, event)?)
+        self.state.is_done |= self.state.limit.take(event);
+        Ok(self.state.required.answered(&session.source().label, event)?)
     }
 
     /// Hands an event to the observers.
     fn pass(&mut self, client: &Client, event: &Event) -> Result<()> {
-        let stamp = self.stamps.of(client, event);
+        let stamp = self.state.stamps.of(client, event);
         self.observer.event(client, event, stamp)
     }
 
@@ -326,8 +388,27 @@ impl Follower<'_> {
         if bytes.is_empty() {
             return Ok(());
         }
-        let stamp: Stamp = self.stamps.now(client);
+        let stamp: Stamp = self.state.stamps.now(client);
         self.observer.sent(client, bytes, stamp)
+    }
+}
+
+impl FollowState {
+    /// Error if the stream has ended without a board.
+    fn check_met(&self, session: &Session) -> Result<()> {
+        let (label, bytes) = (&session.source().label, session.client().counts().bytes);
+        let why = || format!("{label}: no Hello of a taxel board in {bytes} bytes");
+        match session.source().listens {
+            _ if self.is_met || session.client().description().is_some() => Ok(()),
+            true => Err(SourceError::Silent(why()).into()),
+            false => Err(RecordingError::Record(why()).into()),
+        }
+    }
+
+    /// Error if the stream of a board that is wanted alone has ended without it.
+    fn check_wanted(&self, session: &Session) -> Result<()> {
+        // One of several that is no longer wanted need not have been met.
+        if self.is_among { Ok(()) } else { self.check_met(session) }
     }
 }
 

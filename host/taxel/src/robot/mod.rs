@@ -58,7 +58,7 @@ pub use contact::BoardContact;
 pub use event::{BoardEvent, BoardState, RobotEvent};
 pub use feed::feed;
 pub use file::ReadRobot;
-pub use follow::{Ask, Begin, BoardPlan, Opener, Supervisor, follow_alone};
+pub use follow::{Ask, Begin, BoardPlan, Following, Opener, Supervisor, follow_alone};
 pub use forms_in_frame::FormsInFrame;
 pub use gesture_model::GestureModel;
 pub use line::BoardLine;

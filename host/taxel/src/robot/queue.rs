@@ -2,9 +2,10 @@
 
 use super::event::{BoardEvent, BoardState, RobotEvent};
 use crate::client::Stamp;
+use crate::time::Instant;
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Most events of a board that wait.
 pub const WAITING: usize = 256;

@@ -4,7 +4,8 @@
 use crate::client::{Client, Event, Identity};
 use crate::error::{Result, SourceError};
 use crate::source::{Heard, Source, Stranger};
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 use taxel_core::wire::{Request, encode, frame_bound};
 
 /// Longest wait for a `Hello`: a board that does not stream sends one each second.

@@ -2,8 +2,8 @@
 
 use crate::error::Error;
 use crate::source::{Return, Source};
-use std::thread;
-use std::time::{Duration, Instant};
+use crate::time::{Instant, sleep};
+use std::time::Duration;
 
 /// Time between two attempts: initial and longest.
 const TRY: [Duration; 2] = [Duration::from_millis(100), Duration::from_secs(1)];
@@ -38,7 +38,7 @@ impl Absence {
     /// Tries to open the source if an attempt is due; else waits briefly.
     pub(crate) fn try_open(&mut self, open: &mut Return) -> Option<Source> {
         if Instant::now() < self.next {
-            thread::sleep(LOOK);
+            sleep(LOOK);
             return None;
         }
         let opened = open();

@@ -4,7 +4,8 @@ use super::Session;
 use crate::client::passed::Passed;
 use crate::client::{Event, ImageNews};
 use crate::error::SourceError;
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 use taxel_core::wire::Level;
 
 /// Longest wait for what a board owes a run of limited time: its first `Hello`, its return, an image.

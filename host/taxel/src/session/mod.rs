@@ -55,11 +55,11 @@ use crate::client::{Client, Event, Identity, Restored, request_name};
 use crate::error::{Error, Result, SourceError, UsageError};
 use crate::source::array::OriginalBytes;
 use crate::source::{self, Source, SourceOptions, SourceSpec, Stranger};
+use crate::time::{Instant, sleep};
 use absence::Absence;
 use gather::Gather;
 use outgoing::Outgoing;
-use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel_core::format::Micros;
 use taxel_core::wire::{Level, Request};
 

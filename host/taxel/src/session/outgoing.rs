@@ -2,7 +2,8 @@
 
 use crate::error::{Result, SourceError};
 use crate::source::Port;
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 
 /// Time after which a board that reads nothing is an error.
 const PATIENCE: Duration = Duration::from_secs(5);

@@ -9,9 +9,10 @@ use super::{Source, SourceOptions};
 use crate::client::{Client, Event};
 use crate::error::{Error, Result, SourceError};
 use crate::text::words::printable;
+use crate::time::Instant;
 use serialport::SerialPortInfo;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Time to listen on a port: a board that does not stream sends a `Hello` each second.
 const LISTEN: Duration = Duration::from_millis(1500);

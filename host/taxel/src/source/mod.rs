@@ -3,9 +3,11 @@
 
 pub mod array;
 mod auto;
+mod beside;
 mod hand;
 mod heard;
 mod overhear;
+mod paced;
 mod pipe;
 #[cfg(feature = "port-table")]
 mod port_table;

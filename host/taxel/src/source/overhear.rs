@@ -3,7 +3,8 @@
 use super::serial_ports::SerialPorts;
 use super::stranger::Stranger;
 use crate::text::words;
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 
 /// Speeds of arrays, the usual first. A device on USB ignores them.
 const SPEEDS: [u32; 5] = [115_200, 2_000_000, 921_600, 250_000, 9_600];

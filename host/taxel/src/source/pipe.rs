@@ -1,6 +1,7 @@
 //! Two byte queues between the host and a board in another thread. The board blocks on a slow reader, so that
-//! a simulation thins out nothing because of it.
+//! a simulation thins out nothing because of it. Where there are no threads it is the host's reading that moves the board.
 
+use super::beside::yielded;
 use super::shared::Shared;
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -11,6 +12,8 @@ use taxel_core::run::Link;
 const ROOM: usize = 64 * 1024;
 /// Longest wait of a read by the host.
 const PATIENCE: Duration = Duration::from_millis(10);
+/// True if the board has a thread of its own, and its host may wait for it.
+const THREADS: bool = cfg!(not(target_family = "wasm"));
 
 #[derive(Debug, Default)]
 struct Queues {
@@ -39,10 +42,11 @@ pub struct HostEnd(Arc<Shared<Queues>>);
 
 impl super::Port for HostEnd {
     fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<Option<usize>> {
+        self.0.change(|queues| queues.begun = true);
+        #[cfg(target_family = "wasm")]
+        super::beside::step();
         let mut queues = self.0.lock();
-        queues.begun = true;
-        self.0.wake();
-        if queues.to_host.is_empty() && !queues.board_gone {
+        if THREADS && queues.to_host.is_empty() && !queues.board_gone {
             queues = self.0.wait(queues, PATIENCE);
         }
         let count = queues.to_host.len().min(buffer.len());
@@ -84,12 +88,27 @@ pub struct BoardEnd(Arc<Shared<Queues>>);
 
 impl BoardEnd {
     /// Waits for the host's first read. Returns false if there will be none.
-    pub fn begin(&self) -> bool {
+    pub async fn begin(&self) -> bool {
+        while self.is_refused(|queues| !queues.begun) {
+            yielded().await;
+        }
+        !self.is_alone()
+    }
+
+    /// Waits until the host has read enough for what the next scan brings.
+    pub async fn room(&self) {
+        while self.is_refused(|queues| queues.to_host.len() >= ROOM) {
+            yielded().await;
+        }
+    }
+
+    /// True if the host's end is open and this holds, after waiting for a change of it.
+    fn is_refused(&self, holds: impl Fn(&Queues) -> bool) -> bool {
         let mut queues = self.0.lock();
-        while !queues.begun && !queues.host_gone {
+        if THREADS && holds(&queues) && !queues.host_gone {
             queues = self.0.wait(queues, Duration::from_secs(1));
         }
-        !queues.host_gone
+        holds(&queues) && !queues.host_gone
     }
 
     /// True if the host's end is closed.
@@ -128,7 +147,7 @@ impl BoardEnd {
         let queues = self.0.lock();
         if !queues.host_gone {
             drop(queues);
-            std::thread::sleep(time);
+            crate::time::sleep(time);
         }
     }
 }
@@ -148,7 +167,7 @@ impl Link for &BoardEnd {
             return 0;
         }
         let mut queues = self.0.lock();
-        while queues.to_host.len() >= ROOM && !queues.host_gone {
+        while THREADS && queues.to_host.len() >= ROOM && !queues.host_gone {
             queues = self.0.wait(queues, Duration::from_secs(1));
         }
         if !queues.host_gone {
@@ -170,13 +189,14 @@ impl Drop for BoardEnd {
 mod tests {
     use super::super::Port;
     use super::*;
+    use taxel_core::run::block_on;
 
     #[test]
     fn the_board_waits_for_the_reader_and_both_notice_the_end() {
         let (mut host, board) = pipe();
         host.write(b"go").unwrap();
         let thread = std::thread::spawn(move || {
-            assert!(board.begin());
+            assert!(block_on(board.begin()));
             let mut buffer = [0; 8];
             let mut board = &board;
             assert_eq!(board.try_read(&mut buffer), 2);
@@ -193,7 +213,7 @@ mod tests {
         thread.join().unwrap();
         let (host, board) = pipe();
         drop(host);
-        assert!(!board.begin() && board.is_alone());
+        assert!(!block_on(board.begin()) && board.is_alone());
         assert_eq!((&board).try_write(&[0; 100_000]), 100_000);
     }
 }

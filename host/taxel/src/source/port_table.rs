@@ -14,11 +14,11 @@ use super::Port;
 use super::ports::{MachinePorts, Ports};
 use super::serial;
 use crate::error::SourceError;
+use crate::time::sleep;
 use serde::Deserialize;
 use serialport::{SerialPortInfo, SerialPortType, UsbPortInfo};
 use std::io;
 use std::path::PathBuf;
-use std::thread::sleep;
 use std::time::Duration;
 
 /// Ports of a file, which is read anew each time.

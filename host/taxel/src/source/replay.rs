@@ -4,10 +4,11 @@ use super::{Port, Source, SourceOptions};
 use crate::error::{Context, RecordingError, Result};
 use crate::recording::{BoardRecording, GapMark, LinkRecord, WIRE, WireReader, force_scale};
 use crate::text::progress::{Progress, Unit};
+use crate::time::Instant;
 use std::fmt;
 use std::io::{self, IsTerminal};
 use std::str::FromStr;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Longest wait of a read.
 const PATIENCE: Duration = Duration::from_millis(10);
@@ -122,7 +123,7 @@ impl Port for Player {
             let wait = self.due.map_or(Duration::ZERO, |due| due.saturating_duration_since(Instant::now()));
             if !wait.is_zero() {
                 if count == 0 {
-                    std::thread::sleep(wait.min(PATIENCE));
+                    crate::time::sleep(wait.min(PATIENCE));
                 }
                 return Ok(Some(count));
             }

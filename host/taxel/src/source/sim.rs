@@ -1,21 +1,20 @@
 //! The simulated board as a source: runs the core's loop in a thread, on virtual time.
 
+use super::beside::{self, yielded};
 use super::hand::Hand;
+use super::paced::{Paced, Pacing};
 use super::pipe::{BoardEnd, pipe};
 use super::script_posture::{PosturesEnd, ScriptPosture};
 use super::touching::{Rounds, Touching};
 use super::{Source, SourceOptions, scene_of};
 use crate::body;
 use crate::client::SIMULATED;
-use crate::error::{Context, Error, Result, SourceError};
+use crate::error::{Context, Error, Result};
 use crate::files::calibrate::ForceScale;
 use crate::files::{self, garments, input, scripts};
 use crate::sim::{self, COUNTS_PER_NEWTON, FULL_SCALE, Script, SimBoard, SimClock, SimFlash, SimScan};
 use std::ops::Range;
 use std::path::Path;
-use std::sync::mpsc;
-use std::thread;
-use std::time::{Duration, Instant};
 use taxel_core::acquire::Clock;
 use taxel_core::board::{BoardInfo, PieceToStore, Saved, Settings, Shipped, TableKind};
 use taxel_core::boot::{Aside, Boot, BootCause};
@@ -23,17 +22,13 @@ use taxel_core::capacity::TAXELS;
 use taxel_core::format::Micros;
 use taxel_core::garment::{Circuit, Garment, Layout, Pins};
 use taxel_core::pipeline::{Probe, Stage};
-use taxel_core::run::{Link, Platform, block_on, run};
+use taxel_core::run::{Link, Platform, run};
 use taxel_core::scene::Scene;
 use taxel_core::wire::Checksum;
 use taxel_store::{Found, Store, StoreError, Tables, tables_bytes};
 
-/// Boards are boxed, but built on the stack.
-const STACK: usize = 8 << 20;
 /// Capacity of a USB link, bytes per second.
 const LINK: u32 = 1_000_000;
-/// Lag behind real time beyond which a simulation gives up catching up.
-const LAG: Duration = Duration::from_millis(250);
 
 /// Script to play, and for how long.
 struct Playing {
@@ -93,25 +88,17 @@ pub fn play(script: Script, label: String, options: &SourceOptions) -> Result<So
         script,
     };
     let (host, board_end) = pipe();
-    let (ready_sender, ready) = mpsc::channel();
-    thread::Builder::new().name(label.clone()).stack_size(STACK).spawn(move || {
-        let made = play.board().map(Box::new);
+    let build = move || {
         // Built here for the check only; it is built again for each round.
-        let made = SimBoard::new(&play.garment, &play.script, play.seed).map_err(Error::from).and(made);
-        match made {
-            Ok(mut board) => {
-                let _ = ready_sender.send(Ok(()));
-                if board_end.begin() {
-                    play.all(&mut board, board_end);
-                }
+        SimBoard::new(&play.garment, &play.script, play.seed)?;
+        let mut board = Box::new(play.board()?);
+        Ok(async move {
+            if board_end.begin().await {
+                play.all(&mut board, board_end).await;
             }
-            Err(error) => drop(ready_sender.send(Err(error))),
-        }
-    })?;
-    ready
-        .recv()
-        .unwrap_or_else(|_| Err(error!(SourceError::Unstarted, "its thread ended")))
-        .with_context(|| label.clone())?;
+        })
+    };
+    beside::run(&label, build).with_context(|| label.clone())?;
     Ok(Source {
         tare,
         scale: ForceScale::new(None, Some(COUNTS_PER_NEWTON)),
@@ -220,8 +207,7 @@ impl Playing {
     }
 
     /// Runs the board until it is lost, or the script that is played once has ended.
-    fn all(&self, board: &mut Shipped, link: BoardEnd) {
-        let mut origin = Instant::now();
+    async fn all(&self, board: &mut Shipped, link: BoardEnd) {
         let mut flash = SimFlash::new(tables_start(TableKind::Folds) + tables_bytes(TableKind::Folds));
         let mut posture = ScriptPosture::new(&self.scene);
         let idle = self.script.untouched();
@@ -230,26 +216,26 @@ impl Playing {
         // The inputs have been checked, so the board is built again after each restart.
         while let Ok(simulated) = SimBoard::new(&self.garment, script, self.seed) {
             let SimBoard { mut lines, delay, adc, clock, hand } = simulated;
+            let pace = Pacing::new(&link, clock.clone(), self.realtime);
             let mut platform = Virtual {
                 clock: clock.clone(),
                 end: Micros(self.end_us),
                 link: &link,
                 flash: &mut flash,
                 restarts: false,
-                origin: self.realtime.then_some(&mut origin),
+                pace: &pace,
             };
-            let mut scan = SimScan::new(&mut lines, delay, adc, clock.clone());
+            let mut scan = Paced::new(SimScan::new(&mut lines, delay, adc, clock.clone()), &pace);
             posture.begin(&script.joints);
             let touching = Touching::new(&self.hand, hand, &self.script, self.rounds);
             let mut end = PosturesEnd::new(&link, &mut posture, touching, clock.clone());
-            block_on(run(&mut scan, &mut end, &mut platform, board));
+            run(&mut scan, &mut end, &mut platform, board).await;
             now = clock.now();
             if !platform.restarts || self.restart(board, &mut flash).is_err() {
                 break;
             }
             // Both its clock and the script restart.
             posture.follow(&board.setup().scene);
-            origin = Instant::now();
         }
         // Messages of the last frame.
         loop {
@@ -258,6 +244,7 @@ impl Playing {
             if count == 0 {
                 return;
             }
+            yielded().await;
         }
     }
 }
@@ -293,8 +280,7 @@ struct Virtual<'a> {
     flash: &'a mut SimFlash,
     /// The board is to restart.
     restarts: bool,
-    /// Real time at which the board's time was 0; none if it may run ahead.
-    origin: Option<&'a mut Instant>,
+    pace: &'a Pacing<'a>,
 }
 
 impl Clock for Virtual<'_> {
@@ -311,16 +297,7 @@ impl Checksum for Virtual<'_> {}
 
 impl Platform for Virtual<'_> {
     fn alive(&mut self) -> bool {
-        let now = self.now();
-        if let Some(origin) = self.origin.as_deref_mut() {
-            let (due, passed) = (Duration::from_micros(now.0), origin.elapsed());
-            if due > passed {
-                self.link.sleep(due - passed);
-            } else if passed - due > LAG {
-                *origin += passed - due;
-            }
-        }
-        now < self.end && !self.link.is_alone() && !self.restarts
+        self.now() < self.end && !self.link.is_alone() && !self.restarts
     }
 
     fn save(&mut self, settings: &Settings<'_>) -> Result<Saved, &'static str> {
@@ -350,6 +327,7 @@ impl Platform for Virtual<'_> {
     }
 
     async fn idle(&mut self, until: Micros) {
+        self.pace.wait().await;
         let next = until.0.min(self.now().0 + 1000);
         self.clock.advance_to(next);
     }

@@ -1,9 +1,9 @@
 //! The very board on this host: requests, codes and a time in, bytes of its wire out. Nothing here waits, and nothing
 //! reads a clock.
 
+use super::beside::built;
 use super::sim::{info as simulated_info, lasting};
-use crate::error::{Result, SourceError, UsageError};
-use std::thread;
+use crate::error::{Result, UsageError};
 use taxel_core::acquire::{Scan, ScanError, ScanReport};
 use taxel_core::board::{Board, BoardInfo, Input, Job, PieceToStore, Shipped};
 use taxel_core::boot::Boot;
@@ -13,8 +13,6 @@ use taxel_core::scene::Scene;
 use taxel_core::selftest::Findings;
 use taxel_core::wire::{Request, encode, frame_bound};
 
-/// A board is boxed, but built on the stack.
-const STACK: usize = 8 << 20;
 /// Reason why settings are not kept.
 const NO_FLASH: &str = "this board is code on the host and has no flash";
 /// Jobs between two scans: pins to drive, and works that wait. A board never has that many.
@@ -46,10 +44,8 @@ pub struct SteppedBoard {
 impl SteppedBoard {
     /// A board as after power-up. Error if the garment or the scene does not fit it.
     pub fn new(garment: Garment, scene: Scene, firmware: &'static str) -> Result<SteppedBoard> {
-        let build = move || Board::new(info(&garment, firmware), garment, scene).map(Box::new);
-        let builder = thread::Builder::new().name("board".into()).stack_size(STACK).spawn(build)?;
         let mut board =
-            builder.join().map_err(|_| error!(SourceError::Unstarted, "the board could not be built"))??;
+            built(move || Ok(Board::new(info(&garment, firmware), garment, scene).map(Box::new)?))?;
         board.booted(Boot::default());
         Ok(SteppedBoard { board, codes: Vec::new(), table: Vec::new(), last: None, is_due: false })
     }

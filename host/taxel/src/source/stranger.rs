@@ -1,7 +1,8 @@
 //! Something that speaks, but not a board's wire.
 
 use super::array::{KnownArray, numbers};
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 
 /// Bytes that are examined.
 const SAMPLE: usize = 16 << 10;

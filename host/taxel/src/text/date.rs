@@ -1,11 +1,10 @@
 //! Calendar days as text.
 
-use std::time::{SystemTime, UNIX_EPOCH};
+use crate::time::calendar;
 
 /// Today (UTC) as year-month-day.
 pub fn today() -> String {
-    let seconds = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
-    date(seconds / 86_400)
+    date(calendar().as_secs() / 86_400)
 }
 
 /// Days from one year-month-day to another; 0 if the second is earlier, none if one of them is not a day.

@@ -1,8 +1,9 @@
 //! Progress of long tasks, on standard error from the third second on, if it is a terminal.
 
+use crate::time::Instant;
 use std::fmt;
 use std::io::{IsTerminal, Write, stderr};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Shorter tasks show no progress.
 const QUIET: Duration = Duration::from_secs(2);

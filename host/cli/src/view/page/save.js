@@ -1,5 +1,6 @@
 // Saves a picture, this moment's numbers, or a recording of the live half minute or of the range.
 
+import { address, worker } from "./channel.js";
 import { $, colour, contextOf, make } from "./dom.js";
 import { diamond, label } from "./marks.js";
 
@@ -14,6 +15,13 @@ export class Save {
   constructor(context) {
     const menu = $("savings");
     const items = [...menu.querySelectorAll("button")];
+    // A program serves the file at the link's address.
+    if (worker) {
+      $("save-touches").addEventListener("click", (event) => {
+        event.preventDefault();
+        saveFile("touches.toml");
+      });
+    }
     const show = (/** @type {boolean} */ open) => {
       menu.hidden = !open;
       $("save").setAttribute("aria-expanded", String(open));
@@ -43,7 +51,7 @@ export class Save {
       const kind = target instanceof HTMLElement && target.dataset.save;
       if (kind === "png") picture(context.view()).then((url) => download(url, "taxel.png"));
       if (kind === "json" && context.store.shown()) download(moment(context.store), "taxel.json");
-      if (kind === "mcap") download("recording.mcap", "recording.mcap");
+      if (kind === "mcap") saveFile("recording.mcap");
     });
   }
 }
@@ -55,6 +63,15 @@ export class Save {
 function download(href, name) {
   make("a", { href, download: name }).click();
   if (href.startsWith("blob:")) setTimeout(() => URL.revokeObjectURL(href), 10_000);
+}
+
+/**
+ * Saves a file that whoever sends the messages makes.
+ * @param {string} name
+ */
+async function saveFile(name) {
+  const href = await address(name);
+  if (href !== null) download(href, name);
 }
 
 /**

@@ -1,5 +1,7 @@
 // The connection to the program; its messages are described in host/cli/src/view/message.rs.
 
+import { channel } from "./channel.js";
+
 const AGAIN_MS = 1000;
 
 /**
@@ -26,12 +28,12 @@ export function decode(buffer) {
  * @returns {{ ask: import("./types.d.ts").Ask, close: () => void }}
  */
 export function connect(on, place = "socket") {
-  /** @type {WebSocket | null} */
+  /** @type {import("./channel.js").Channel | null} */
   let socket = null;
   let isClosed = false;
   const open = () => {
     if (isClosed) return;
-    const next = new WebSocket(new URL(place, location.href.replace(/^http/, "ws")));
+    const next = channel(place);
     socket = next;
     next.binaryType = "arraybuffer";
     next.onopen = () => on.connected(true);

@@ -2,7 +2,8 @@
 
 use crate::view::lines::PlayerLine;
 use crate::view::order::Order;
-use std::time::{Duration, Instant};
+use std::time::Duration;
+use taxel::time::Instant;
 
 /// Slowest and fastest speed.
 pub const SPEEDS: [f64; 2] = [0.01, 64.0];

@@ -35,12 +35,13 @@ use reel::Reel;
 use screen::PageScreen;
 use std::collections::VecDeque;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use survey::{RecordedTime, Survey};
 use taxel::client::Event;
 use taxel::files::calibrate::{Calibration, ForceScale};
 use taxel::record::Origin;
 use taxel::recording::{self, BoardRecording, CALIBRATION, Clips, WIRE, gap_marks};
+use taxel::time::Instant;
 
 /// Time between two messages about the position.
 const UPDATE: Duration = Duration::from_millis(250);

@@ -7,12 +7,13 @@ use crate::view::line_kind::LineKind;
 use crate::view::said::{EventLines, Said, gap};
 use std::sync::Arc;
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use taxel::client::{Client, Event, RetainedState};
 use taxel::files::calibrate::ForceScale;
 use taxel::recording::{ClipMessage, Clips, HELLO, lost};
 use taxel::source::shared::Shared;
 use taxel::text::words;
+use taxel::time::Instant;
 use taxel_core::wire::{self, Report};
 
 /// Time between two progress messages.

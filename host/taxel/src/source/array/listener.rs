@@ -3,9 +3,9 @@
 use super::super::Port;
 use super::super::tcp::Tcp;
 use crate::error::{Result, SourceError};
+use crate::time::sleep;
 use std::io;
 use std::net::{Ipv4Addr, TcpListener};
-use std::thread::sleep;
 use std::time::Duration;
 
 /// Longest wait of a read.

@@ -1,7 +1,8 @@
 //! Times of a board whose frames come from elsewhere.
 
 use super::frame::ArrayFrame;
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 use taxel_core::format::Micros;
 
 /// Silence after which a sensor's clock is followed anew.

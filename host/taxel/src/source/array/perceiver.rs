@@ -15,10 +15,11 @@ use super::report::ArrayReport;
 use crate::client::scene_bytes;
 use crate::error::Result;
 use crate::text::words;
+use crate::time::Instant;
 use std::io;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
-use taxel_core::run::Link;
+use std::time::Duration;
+use taxel_core::run::{Link, block_on};
 use taxel_core::scene::Scene;
 use taxel_core::wire::{LONGEST_REQUEST, Request, encode, frame_bound};
 
@@ -47,7 +48,7 @@ pub struct Perceiver {
 impl Perceiver {
     /// Runs until one of both ends is gone.
     pub fn run(mut self) {
-        if self.link.begin()
+        if block_on(self.link.begin())
             && let Err(why) = self.follow()
         {
             self.report.lock().fault = Some(words::sentence(&why));

@@ -1,7 +1,8 @@
 //! Requests that an array answers with a frame.
 
 use super::description::ArrayDescription;
-use std::time::{Duration, Instant};
+use crate::time::Instant;
+use std::time::Duration;
 
 /// Silence that ends an answer.
 const QUIET: Duration = Duration::from_millis(30);

@@ -5,9 +5,10 @@ use super::super::pipe::HostEnd;
 use super::super::shared::Shared;
 use super::frame::ArrayLoss;
 use super::original::{OriginalBytes, OriginalQueue};
+use crate::time::Instant;
 use std::io;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Time between two reports of losses.
 const REPORTED: Duration = Duration::from_secs(5);
