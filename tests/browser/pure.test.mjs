@@ -5,12 +5,23 @@ import { test } from "node:test";
 import assert from "node:assert/strict";
 import { load } from "./module.fixture.mjs";
 
-const [timeline, glow, follow, presence, speaker, sentences, map] = await Promise.all(
-  ["timeline", "afterglow", "follow", "presence", "speaker", "sentence", "layers"].map(load),
+const [timeline, glow, follow, presence, speaker, sentences, map, limits] = await Promise.all(
+  ["timeline", "afterglow", "follow", "presence", "speaker", "sentence", "layers", "limits"].map(load),
 );
 // It reads its address.
 globalThis.location = { search: "" };
 const { Store } = await load("store");
+
+test("limits stay in their order, and say what they let through", () => {
+  const { changed, passed } = limits;
+  const now = { floor: 24, low: 32, high: 96, min_area: 2, filter: "persistent" };
+  assert.deepEqual(changed(now, "low", 40), { ...now, low: 40 });
+  assert.deepEqual(changed(now, "low", 100), { ...now, low: 100, high: 100 });
+  assert.deepEqual(changed(now, "high", 20), { ...now, low: 20, high: 20 });
+  assert.deepEqual(changed(now, "min_area", 9), { ...now, min_area: 9 });
+  assert.equal(passed([0, 31, 32, 96, 200], now), "The greatest pressure now is 200 counts: 3 taxels reach 32, 2 of them 96.");
+  assert.equal(passed([0, 0], now), "Nothing presses now.");
+});
 
 test("times are read as on a clock", () => {
   const { timeText } = timeline;

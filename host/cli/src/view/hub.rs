@@ -4,10 +4,11 @@ use super::hand::PageHand;
 use super::kept_log::KeptLog;
 use super::lines::NoneLine;
 use super::mailbox::Mailbox;
-use super::message::{self, PageRequest};
+use super::message::{self, PageRequest, SettingsOrder};
 use super::order::Order;
 use super::recent::Recent;
 use super::said::Said;
+use super::setup::SetupOrder;
 use super::shot::{Shot, text};
 use super::tape::{self, Tape};
 use crate::on_robot::ShownRobot;
@@ -30,6 +31,8 @@ pub const PAGES: usize = 16;
 const TRANSFERS: usize = 3;
 /// Most tares queued: one in progress, and another.
 const TARES: usize = 2;
+/// Most settings queued for the board.
+const SETTINGS: usize = 16;
 /// Most orders queued for the player of a recording.
 const ORDERS: usize = 64;
 
@@ -61,11 +64,26 @@ struct PageShared {
     /// The map of the scene.
     map: Option<Arc<MapFile>>,
     tares: VecDeque<u16>,
+    settings: VecDeque<SetupOrder>,
+    /// Pages may only look.
+    is_read_only: bool,
     /// The image for pages that come later.
     shown: Option<Shot>,
     tape: Option<Tape>,
     /// Range of the recording that is saved, us.
     range: [u64; 2],
+}
+
+impl PageShared {
+    /// Queues a setting. Limits replace those that wait.
+    fn set(&mut self, order: SetupOrder) {
+        if let (SetupOrder::Set(_), Some(SetupOrder::Set(_))) = (order, self.settings.back()) {
+            self.settings.pop_back();
+        }
+        if self.settings.len() < SETTINGS {
+            self.settings.push_back(order);
+        }
+    }
 }
 
 impl PageHub {
@@ -160,7 +178,10 @@ impl PageHub {
 
     /// Sends pages how the hand is, if that has changed.
     pub fn announce_hand(&self) {
-        let news = self.lock().hand.as_mut().and_then(PageHand::news);
+        let mut shared = self.lock();
+        let is_read_only = shared.is_read_only;
+        let news = shared.hand.as_mut().filter(|_| !is_read_only).and_then(PageHand::news);
+        drop(shared);
         news.iter().for_each(|line| self.state("hand", line));
     }
 
@@ -254,6 +275,16 @@ impl PageHub {
         }
     }
 
+    /// Lets pages look alone: what they ask of the board is not done.
+    pub fn read_only(&self) {
+        self.lock().is_read_only = true;
+    }
+
+    /// True if pages may only look.
+    pub fn is_read_only(&self) -> bool {
+        self.lock().is_read_only
+    }
+
     /// True if a pointer is on a taxel.
     pub fn is_looked_at(&self) -> bool {
         self.lock().pages.iter().any(|page| page.hovered().is_some())
@@ -262,6 +293,9 @@ impl PageHub {
     /// Handles a page's request, or queues it for the board's thread.
     pub fn request(&self, page: &Mailbox, request: PageRequest) {
         let mut shared = self.lock();
+        if shared.is_read_only && request.changes() {
+            return;
+        }
         match request {
             PageRequest::Hover(taxel) => {
                 page.hover(taxel);
@@ -292,6 +326,9 @@ impl PageHub {
                     self.say(&Said::note(format!("{name} is not played: {error:#}")));
                 }
             }
+            PageRequest::Limits(limits) => shared.set(SetupOrder::Set(limits)),
+            PageRequest::Setup(SettingsOrder::Undo) => shared.set(SetupOrder::Undo),
+            PageRequest::Setup(SettingsOrder::Save) => shared.set(SetupOrder::Save),
             PageRequest::Player(order) => self.order(order),
         }
     }
@@ -358,6 +395,11 @@ impl PageHub {
         self.lock().tares.pop_front()
     }
 
+    /// Takes what pages set on the board.
+    pub fn settings(&self) -> VecDeque<SetupOrder> {
+        std::mem::take(&mut self.lock().settings)
+    }
+
     /// Keeps the bytes of an event.
     pub fn keep(&self, client: &Client, event: &Event) {
         self.recent().take(client, event);
@@ -378,9 +420,11 @@ impl PageHub {
 
 #[cfg(test)]
 mod tests {
+    use super::super::limits::SceneLimits;
     use super::super::mailbox::Parcel;
     use super::*;
     use serde_json::json;
+    use taxel_core::scene::Scene;
 
     #[test]
     fn a_page_that_comes_late_is_sent_what_is_known() {
@@ -415,5 +459,27 @@ mod tests {
         assert_eq!((reported(&one), reported(&other)), (json!(6), json!(null)));
         (0..9).for_each(|_| hub.request(&one, PageRequest::Tare(16)));
         assert_eq!(std::iter::from_fn(|| hub.tare()).count(), TARES);
+    }
+
+    #[test]
+    fn a_page_that_only_looks_changes_nothing() {
+        let asked = |hub: &PageHub| {
+            let page = hub.join().unwrap();
+            let limits = SceneLimits::of(&Scene::shipped());
+            for request in [
+                PageRequest::Tare(16),
+                PageRequest::Limits(SceneLimits { high: 99, ..limits }),
+                PageRequest::Limits(limits),
+                PageRequest::Setup(SettingsOrder::Save),
+            ] {
+                hub.request(&page, request);
+            }
+            (hub.tare(), Vec::from(hub.settings()))
+        };
+        let set = vec![SetupOrder::Set(SceneLimits::of(&Scene::shipped())), SetupOrder::Save];
+        assert_eq!(asked(&PageHub::default()), (Some(16), set));
+        let looked_at = PageHub::default();
+        looked_at.read_only();
+        assert_eq!(asked(&looked_at), (None, Vec::new()));
     }
 }

@@ -1,6 +1,7 @@
 //! The JSON messages to a page, one struct each, but for those that are lines of `taxel live --json`. The
 //! docs of the fields are the descriptions in `page/messages.d.ts`.
 
+use super::limits::SceneLimits;
 use super::line_kind::LineKind;
 use crate::palette::PagePalette;
 use crate::watch::Felt;
@@ -322,6 +323,24 @@ pub struct ImageHead {
     replaced: u64,
     /// Samples and lines that were dropped, because the page did not read.
     missed: u64,
+}
+
+/// What pages can set on the board, and have set.
+#[derive(Debug, Clone, Copy, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[cfg_attr(feature = "schema", schemars(transform = TypeIs("setup")))]
+#[serde(tag = "type", rename = "setup")]
+pub struct SetupLine {
+    /// Limits and filter of the board's scene.
+    pub limits: SceneLimits,
+    /// Number of steps that can be undone.
+    pub undo: usize,
+    /// True if the board has been set since it was saved.
+    pub unsaved: bool,
+    /// True if the board is simulated: it is asked nothing that would need a question.
+    pub simulated: bool,
+    /// True if pages may only look.
+    pub read_only: bool,
 }
 
 /// Tools that can press the garment of a simulated board.

@@ -14,12 +14,14 @@
 //!
 //! A page sends `{"hover": taxel}` (or null), `{"tare": frames}`, and `{"why": {"of": concept, "concepts":
 //! activations}}`, which is answered by `why`. If its board is simulated, it sends `{"press": ..}` ([`FingerRequest`]),
-//! `{"release": finger}`, `{"script": name}` and `{"hand": "again"}` or `"clear"`, and is sent `hand`. If it shows a
+//! `{"release": finger}`, `{"script": name}` and `{"hand": "again"}` or `"clear"`, and is sent `hand`. Where it is sent
+//! `setup`, it sends `{"limits": ..}` ([`SceneLimits`]) and `{"setup": "undo"}` or `"save"`. If it shows a
 //! recording, it sends
 //! `{"play": bool}`, `{"seek": s}`, `{"step": images}`, `{"speed": times}`, `{"loop": bool}`, `{"range":
 //! [from, to]}` (s, or null), and all pages follow. Everything else is ignored, including numbers that are
 //! not finite, a speed of 0 or less, and a step of 0; a time beyond the recording becomes its end.
 
+use super::limits::SceneLimits;
 use super::lines::{
     GlowLine, LinkLine, PageConcept, PageEdge, PageFrame, PageHello, PageMap, PathShare, PinsLine, TaxelLine,
     WhyLine,
@@ -206,9 +208,25 @@ pub enum PageRequest {
     Script(String),
     /// Order to play again what was pressed, or to forget it.
     Hand(HandOrder),
+    /// Limits and filter for the board's scene.
+    Limits(SceneLimits),
+    /// Order about what was set.
+    Setup(SettingsOrder),
     /// An order to the player of a recording.
     #[serde(untagged)]
     Player(Order),
+}
+
+impl PageRequest {
+    /// True if it changes something on the board or its garment.
+    pub fn changes(&self) -> bool {
+        match self {
+            PageRequest::Hover(_) | PageRequest::Why { .. } | PageRequest::Player(_) => false,
+            PageRequest::Tare(_) | PageRequest::Limits(_) | PageRequest::Setup(_) => true,
+            PageRequest::Press(_) | PageRequest::Release(_) => true,
+            PageRequest::Script(_) | PageRequest::Hand(_) => true,
+        }
+    }
 }
 
 /// Press of a finger.
@@ -241,6 +259,17 @@ pub enum HandOrder {
     Clear,
 }
 
+/// Order about what was set on the board.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "lowercase")]
+pub enum SettingsOrder {
+    /// Order to take back the last step.
+    Undo,
+    /// Order to save the settings on the board.
+    Save,
+}
+
 /// Parses a message of a page; none if it is unknown.
 pub fn request(text: &str) -> Option<PageRequest> {
     let request: PageRequest = serde_json::from_str(text).ok()?;
@@ -248,7 +277,8 @@ pub fn request(text: &str) -> Option<PageRequest> {
         PageRequest::Hover(_) => true,
         PageRequest::Tare(frames) => (1..=4096).contains(frames),
         PageRequest::Press(FingerRequest { finger, .. }) | PageRequest::Release(finger) => *finger < FINGERS,
-        PageRequest::Script(_) | PageRequest::Hand(_) => true,
+        PageRequest::Script(_) | PageRequest::Hand(_) | PageRequest::Setup(_) => true,
+        PageRequest::Limits(limits) => limits.is_sound(),
         PageRequest::Why { concepts, .. } => concepts.iter().all(|value| (-1.0..=1.0).contains(value)),
         PageRequest::Player(order) => order.is_sound(),
     };
@@ -301,6 +331,11 @@ mod tests {
         assert_eq!(request(r#"{"release": 10}"#), None);
         assert_eq!(request(r#"{"hand": "again"}"#), Some(PageRequest::Hand(HandOrder::Again)));
         assert_eq!(request(r#"{"script": "pat"}"#), Some(PageRequest::Script("pat".into())));
+        let limits = r#"{"limits": {"floor": 24, "low": 30, "high": 80, "min_area": 2, "filter": "median"}}"#;
+        assert!(matches!(request(limits), Some(PageRequest::Limits(SceneLimits { high: 80, .. }))));
+        assert_eq!(request(&limits.replace("80", "20")), None);
+        assert_eq!(request(&limits.replace("median", "none")), None);
+        assert_eq!(request(r#"{"setup": "undo"}"#), Some(PageRequest::Setup(SettingsOrder::Undo)));
         for nonsense in ["", "{}", "[]", r#"{"hover": -1}"#, r#"{"hover": 1e9}"#, r#"{"tare": 0}"#, "7"] {
             assert_eq!(request(nonsense), None, "{nonsense}");
         }

@@ -14,6 +14,7 @@ mod hub;
 #[cfg(feature = "program")]
 mod hubs;
 mod kept_log;
+mod limits;
 mod line_kind;
 pub mod lines;
 mod mailbox;
@@ -34,6 +35,7 @@ mod said;
 pub mod schemas;
 #[cfg(feature = "program")]
 mod server;
+mod setup;
 mod shot;
 mod tape;
 #[cfg(feature = "program")]
@@ -44,6 +46,7 @@ pub use hand::PageHand;
 pub use hub::PageHub;
 #[cfg(feature = "program")]
 pub use hubs::PageHubs;
+pub use limits::SceneLimits;
 pub use line_kind::LineKind;
 pub use mailbox::{Mailbox, Parcel};
 pub use order::Order;

@@ -2,7 +2,7 @@
 
 use super::lines::{
     EndLine, GlowLine, HandLine, ImageHead, LinkLine, LogLine, NoneLine, OverviewLine, PageHello, PinsLine,
-    PlayerLine, RobotIntentLine, RobotLine, SayLine, TaxelLine, WhyLine,
+    PlayerLine, RobotIntentLine, RobotLine, SayLine, SetupLine, TaxelLine, WhyLine,
 };
 use super::message::PageRequest;
 use crate::folding::FoldingLine;
@@ -33,6 +33,7 @@ pub fn derived() -> Vec<(&'static str, Value)> {
         ("WhyLine", of::<WhyLine>()),
         ("EndLine", of::<EndLine>()),
         ("HandLine", of::<HandLine>()),
+        ("SetupLine", of::<SetupLine>()),
         ("NoneLine", of::<NoneLine>()),
         ("PlayerLine", of::<PlayerLine>()),
         ("OverviewLine", of::<OverviewLine<'static>>()),

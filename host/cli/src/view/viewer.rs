@@ -6,6 +6,7 @@ use super::lines::{EndLine, PageFrame};
 use super::message;
 use super::raw::RawCodes;
 use super::said::{EventLines, Said};
+use super::setup::PageSetup;
 use super::shot::{Shot, text};
 use super::tape::Tape;
 use crate::fault::own;
@@ -37,6 +38,7 @@ pub struct Viewer {
     /// Folds of the garment; none without a table.
     folding: Option<Folding>,
     lines: EventLines,
+    setup: PageSetup,
     rate: Rate,
     raw: RawCodes,
     sent: Instant,
@@ -60,6 +62,7 @@ impl Viewer {
             calibration,
             folding: None,
             lines: EventLines::default(),
+            setup: PageSetup::default(),
             rate: Rate::default(),
             raw: RawCodes::default(),
             sent: now,
@@ -102,6 +105,10 @@ impl Viewer {
             }
             _ => {}
         }
+        // What is recorded is set by nobody at a page.
+        if self.is_curious && self.setup.heard(event) {
+            self.show_setup(client);
+        }
         for said in self.lines.narrate(client, event) {
             self.hub.say(&said);
         }
@@ -140,6 +147,11 @@ impl Viewer {
             folding.use_garment(description)?;
         }
         self.hub.dress(client)
+    }
+
+    fn show_setup(&self, client: &Client) {
+        let line = self.setup.line(client, self.hub.is_read_only());
+        line.iter().for_each(|line| self.hub.state("setup", line));
     }
 
     fn link(&mut self, client: &Client) {
@@ -202,6 +214,10 @@ impl Observer for Viewer {
         if let Some(frames) = self.hub.tare() {
             client.request(&Request::Tare { frames })?;
             self.hub.say(&Said::note(format!("tare over {frames} frames")));
+        }
+        for order in self.hub.settings().into_iter().filter(|_| self.is_curious) {
+            self.setup.obey(order, client)?;
+            self.show_setup(client);
         }
         if self.is_curious {
             self.raw.tend(client, self.hub.is_looked_at(), now)?;

@@ -152,7 +152,7 @@ export class Controls {
 
   /** Asks before it tares: a garment that is touched would no longer feel it. */
   tare() {
-    if (!this.store.recorded) one(HTMLDialogElement, "ask-tare").showModal();
+    if (!this.store.recorded && !this.store.states.setup?.read_only) one(HTMLDialogElement, "ask-tare").showModal();
   }
 
   /** All keys, including those of the current view. */

@@ -19,6 +19,7 @@ import { Panels } from "./panels.js";
 import { Player } from "./player.js";
 import { Robot } from "./robot.js";
 import { Save } from "./save.js";
+import { Setup } from "./setup.js";
 import { Store } from "./store.js";
 import { Surface } from "./surface.js";
 import { Speaker } from "./speaker.js";
@@ -75,6 +76,7 @@ const views = {
   health: new Health($("view-health")),
 };
 const shownViews = () => controls.parts.flatMap((name) => views[name] ?? []);
+const setup = new Setup(store, ask, changed);
 const tools = new Tools(ask, changed);
 const hand = new Hand({ store, ask, hover, tools, views: () => shownViews() });
 const save = new Save({ store, view: () => $("view") });
@@ -124,6 +126,7 @@ function spoken() {
 /** @param {import("./types.d.ts").Settings} settings */
 function beside(settings) {
   link.draw(store);
+  setup.draw();
   $("layer-folds").hidden = !store.states.folding;
   say($("folding"), legend(store.shown(), settings));
   say($("spoken"), speaker.next(spoken(), performance.now()));

@@ -625,6 +625,33 @@ export type HandLine = {
   touches: number;
 };
 
+/** What pages can set on the board, and have set. */
+export type SetupLine = {
+  /** Type of the message. */
+  type: "setup";
+  /** Limits and filter of the board's scene. */
+  limits: {
+    /** Pressure below this many counts is 0: 1 to 4095. */
+    floor: number;
+    /** Pressure of a contact's taxels, counts: 1 to 4095. */
+    low: number;
+    /** Peak with which a contact begins, counts: `low` to 4095. */
+    high: number;
+    /** Smallest area of a contact, taxels: 1 to 256. */
+    min_area: number;
+    /** The filter: `off`, `conservative`, `median`, `square` or `persistent`. */
+    filter: string;
+  };
+  /** Number of steps that can be undone. */
+  undo: number;
+  /** True if the board has been set since it was saved. */
+  unsaved: boolean;
+  /** True if the board is simulated: it is asked nothing that would need a question. */
+  simulated: boolean;
+  /** True if pages may only look. */
+  read_only: boolean;
+};
+
 /** The last message of a type is no longer valid. */
 export type NoneLine = {
   /** Type of the message. */
@@ -784,6 +811,23 @@ export type PageRequest = {
 } | {
   /** Order about what was pressed. */
   hand: "again" | "clear";
+} | {
+  /** Limits and filter of a scene. */
+  limits: {
+    /** Pressure below this many counts is 0: 1 to 4095. */
+    floor: number;
+    /** Pressure of a contact's taxels, counts: 1 to 4095. */
+    low: number;
+    /** Peak with which a contact begins, counts: `low` to 4095. */
+    high: number;
+    /** Smallest area of a contact, taxels: 1 to 256. */
+    min_area: number;
+    /** The filter: `off`, `conservative`, `median`, `square` or `persistent`. */
+    filter: string;
+  };
+} | {
+  /** Order about what was set on the board. */
+  setup: "undo" | "save";
 } | {
   play: boolean;
 } | {

@@ -24,6 +24,7 @@ import type {
   RobotIntentLine,
   RobotLine,
   SayLine,
+  SetupLine,
   TaxelLine,
   WhyLine,
 } from "./messages.d.ts";
@@ -143,6 +144,8 @@ export interface States {
   robot?: RobotLine;
   robot_intent?: RobotIntentLine;
   why?: WhyLine;
+  /** What can be set on the board; only of a live one that the page may ask. */
+  setup?: SetupLine;
   /** What presses the garment; only of a simulated board. */
   hand?: HandLine;
 }

@@ -48,6 +48,9 @@ pub struct ViewArgs {
     /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
     #[arg(long, value_name = "N")]
     pub port: Option<u16>,
+    /// Let pages look alone: no tare, no limits, no press on a simulated garment
+    #[arg(long)]
+    pub read_only: bool,
     /// Open the page in the browser
     #[arg(long)]
     pub open: bool,
@@ -99,6 +102,9 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let options = SourceOptions { realtime: true, repeat: true, waits, ..SourceOptions::default() };
     let (source, calibration) = args.board.open_to_show(options, stdout().is_terminal())?;
     let hub = Arc::new(PageHub::default());
+    if args.read_only {
+        hub.read_only();
+    }
     // The garment that is played where nothing was named is on a robot, too.
     let unnamed = waits && source.hand.is_some() && args.board.config.garment.is_none();
     let reference = || ShownRobot::read(REFERENCE, Some(REFERENCE), "");

@@ -20,6 +20,9 @@ pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
     let requests = RequestLines::of(args.board.requests.as_deref())?;
     let mind = RobotMind::new(robot)?;
     let pages = pages(robot)?;
+    if args.read_only {
+        (0..robot.boards.len()).for_each(|number| pages.hub(number).read_only());
+    }
     announce(&format!("robot {}", robot.name), bind(args.port)?, pages.hubs(), args.open)?;
     let options = args.board.at_real_time(args.seconds);
     let plans = robot.plans(&options, &run_limit(None, args.seconds));
