@@ -42,8 +42,11 @@ pub struct Request {
 /// Sites whose pages are served. Programs other than browsers send no `Origin`.
 #[derive(Debug, Clone, Copy)]
 pub enum Sites<'a> {
-    /// Only this server's own pages.
+    /// Only this server's own pages, under a name of this machine.
     Own,
+    /// Only this server's own pages, under whatever name other machines have for this one: who may read them is decided
+    /// by a secret in their address.
+    Any,
     /// These sites (`https://app.example.org`), any local server, and local files.
     Named(&'a [String]),
 }
@@ -51,7 +54,7 @@ pub enum Sites<'a> {
 impl Sites<'_> {
     fn are_of(self, host: &str, origin: &str) -> bool {
         match self {
-            Sites::Own => origin.strip_prefix("http://") == Some(host),
+            Sites::Own | Sites::Any => origin.strip_prefix("http://") == Some(host),
             Sites::Named(names) => {
                 let local = origin.strip_prefix("http://").is_some_and(is_this_machine);
                 local || origin == "file://" || names.iter().any(|name| name == origin)
@@ -120,7 +123,7 @@ pub fn parse(bytes: &[u8], sites: Sites<'_>) -> Result<Option<Request>, Refusal>
 /// Refuses pages of other sites, which may reach this port under their own name (DNS rebinding) or under
 /// ours. The port may differ if it is forwarded.
 fn check_names(host: &str, has_origin: bool, origin: Option<&str>, sites: Sites<'_>) -> Result<(), Refusal> {
-    if !is_this_machine(host) {
+    if !matches!(sites, Sites::Any) && !is_this_machine(host) {
         return Err(refusal("403 Forbidden", "this server only answers to 127.0.0.1 and localhost"));
     }
     // Duplicates count as invalid.

@@ -39,6 +39,8 @@ mod setup;
 mod shot;
 mod tape;
 #[cfg(feature = "program")]
+mod token;
+#[cfg(feature = "program")]
 mod transfer;
 mod viewer;
 
@@ -59,7 +61,9 @@ pub use recorded::Player;
 pub use robot::RobotPages;
 pub use said::Said;
 #[cfg(feature = "program")]
-pub use server::serve;
+pub use server::{serve, serve_guests};
 pub use shot::Shot;
 pub use tape::Tape;
+#[cfg(feature = "program")]
+pub use token::Token;
 pub use viewer::Viewer;

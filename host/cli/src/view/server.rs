@@ -3,6 +3,7 @@
 use super::hub::PageHub;
 use super::hubs::PageHubs;
 use super::said::Said;
+use super::token::Token;
 use super::transfer::Transfer;
 use super::{assets, page};
 use crate::serve::http::{self, Refusal, Sites};
@@ -15,6 +16,11 @@ use std::net::{TcpListener, TcpStream};
 const CONNECTIONS: usize = 48;
 /// The file does not exist.
 const MISSING: Refusal = Refusal { status: "404 Not Found", why: "no such file" };
+/// The address lacks the token.
+const STRANGE: Refusal = Refusal {
+    status: "403 Forbidden",
+    why: "this page is for whoever has its whole address: the program that serves it has printed it",
+};
 /// Too many transfers.
 const BUSY: Refusal = Refusal {
     status: "503 Service Unavailable",
@@ -24,17 +30,35 @@ const BUSY: Refusal = Refusal {
 /// Serves the pages of a hub, or of the boards of a robot, in a thread of its own. Returns the port.
 pub fn serve(listener: TcpListener, hubs: impl Into<PageHubs>) -> Result<u16> {
     let hubs = hubs.into();
-    serve::open("page", listener, CONNECTIONS, move |stream, guest| Ok(connection(stream, &guest, &hubs)?))
+    serve::open("page", listener, CONNECTIONS, move |stream, guest| {
+        Ok(connection(stream, &guest, &hubs, None)?)
+    })
+}
+
+/// Serves the pages to other machines, too, if their addresses begin with the token. Returns the port.
+pub fn serve_guests(listener: TcpListener, hubs: impl Into<PageHubs>, token: Token) -> Result<u16> {
+    let hubs = hubs.into();
+    serve::open("page", listener, CONNECTIONS, move |stream, guest| {
+        Ok(connection(stream, &guest, &hubs, Some(&token))?)
+    })
 }
 
 /// Answers one request, or serves a page until it closes.
-fn connection(mut stream: TcpStream, guest: &Guest, hubs: &PageHubs) -> std::io::Result<()> {
-    let Some(request) = http::read(&mut stream, Sites::Own) else { return Ok(()) };
+fn connection(
+    mut stream: TcpStream,
+    guest: &Guest,
+    hubs: &PageHubs,
+    token: Option<&Token>,
+) -> std::io::Result<()> {
+    let sites = if token.is_some() { Sites::Any } else { Sites::Own };
+    let Some(request) = http::read(&mut stream, sites) else { return Ok(()) };
     let request = match request {
         Ok(request) => request,
         Err(refusal) => return http::refuse(&mut stream, refusal),
     };
-    let Some((hub, path)) = hubs.at(&request.path) else { return http::refuse(&mut stream, MISSING) };
+    let behind = token.map_or(Some(request.path.as_str()), |token| token.behind(&request.path));
+    let Some(path) = behind else { return http::refuse(&mut stream, STRANGE) };
+    let Some((hub, path)) = hubs.at(path) else { return http::refuse(&mut stream, MISSING) };
     match (path, request.key) {
         ("/socket", Some(key)) => match hub.join() {
             Some(mailbox) => {

@@ -12,7 +12,7 @@ use taxel::client::{Client, Event, ImageNews, Stamp};
 use taxel::session::Observer;
 use taxel::source::{self, SourceOptions};
 use taxel_cli::on_robot::ShownRobot;
-use taxel_cli::view::{PageHub, Said, Shot, Viewer, serve};
+use taxel_cli::view::{PageHub, Said, Shot, Token, Viewer, serve, serve_guests};
 use taxel_cli::watch::{WatchOptions, watch};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
@@ -140,6 +140,31 @@ fn files_are_served_to_this_machine_alone_and_nothing_else_is() {
     // The key and its answer are those of RFC 6455.
     let agreed = get("/socket", &format!("{own}\r\n{upgrade}\r\nOrigin: http://localhost:{port}"));
     assert!(agreed.contains("101 Switching") && agreed.contains("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="), "{agreed}");
+}
+
+#[test]
+fn whoever_has_the_token_is_let_in_from_other_machines_and_nobody_else() {
+    let token = Token::random();
+    let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).unwrap();
+    let port = serve_guests(listener, Arc::new(PageHub::default()), token.clone()).unwrap();
+    let get = |path: &str, headers: &str| answer(port, &format!("GET {path} HTTP/1.1\r\n{headers}\r\n\r\n"));
+    let (own, elsewhere) = (format!("/{}", token.as_str()), "Host: robot.local:8295");
+    let upgrade =
+        "Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==";
+    let from = |origin: &str| format!("{elsewhere}\r\n{upgrade}\r\nOrigin: {origin}");
+    for (answer, status) in [
+        (get(&format!("{own}/"), elsewhere), "200"),
+        (get(&format!("{own}/main.js"), elsewhere), "200"),
+        (get(&format!("{own}/socket"), &from("http://robot.local:8295")), "101"),
+        (get(&format!("{own}/socket"), &from("http://evil.example")), "403"),
+        (get("/", elsewhere), "403"),
+        (get("/socket", &from("http://robot.local:8295")), "403"),
+        (get("/main.js", &format!("Host: localhost:{port}")), "403"),
+        (get(&format!("/{}/", Token::random().as_str()), elsewhere), "403"),
+        (get(&own, elsewhere), "403"),
+    ] {
+        assert_eq!(answer.get(9..12), Some(status), "{answer}");
+    }
 }
 
 #[test]

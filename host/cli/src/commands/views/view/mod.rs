@@ -7,7 +7,7 @@ pub use robot::{pages, viewer};
 use crate::fault::Fault;
 use crate::folding::Folding;
 use crate::on_robot::ShownRobot;
-use crate::view::{PageHub, PageHubs, Player, Viewer, browser, serve};
+use crate::view::{PageHub, PageHubs, Player, Token, Viewer, browser, serve, serve_guests};
 use crate::watch::{self, BoardArgs, WatchOptions};
 use anyhow::{Context, Result, ensure};
 use std::io::{IsTerminal, stdout};
@@ -48,6 +48,10 @@ pub struct ViewArgs {
     /// Port of the page on this machine; 0: any that is free [default: 8295, or any if that is taken]
     #[arg(long, value_name = "N")]
     pub port: Option<u16>,
+    /// Let other machines open the page, too: whoever has its address, which holds a token, watches the board and, without
+    /// --read-only, sets it
+    #[arg(long)]
+    pub listen: bool,
     /// Let pages look alone: no tare, no limits, no press on a simulated garment
     #[arg(long)]
     pub read_only: bool,
@@ -75,6 +79,24 @@ impl ViewArgs {
         }
     }
 
+    /// Binds to this machine's own interface, or to all of them.
+    fn bind(&self) -> Result<TcpListener> {
+        bind_at(if self.listen { Ipv4Addr::UNSPECIFIED } else { Ipv4Addr::LOCALHOST }, self.port)
+    }
+
+    /// Serves the pages, and prints their address.
+    fn announce(&self, what: &str, listener: TcpListener, hub: Arc<PageHub>) -> Result<()> {
+        if !self.listen {
+            return announce(what, listener, hub, self.open);
+        }
+        let token = Token::random();
+        let port = serve_guests(listener, hub, token.clone())?;
+        let url = format!("http://127.0.0.1:{port}/{}/", token.as_str());
+        println!("{what} at {url} (Ctrl-C ends)");
+        println!("{}", words_to_guests(port));
+        if self.open { browser::open(&url) } else { Ok(()) }
+    }
+
     /// The robot that carries the garment; none without a body.
     fn shown_robot(&self) -> Result<Option<ShownRobot>> {
         shown_robot(&self.board, self.joints.as_deref().unwrap_or_default())
@@ -96,7 +118,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
         return play(&args, &file, speed);
     }
     let shown_robot = args.shown_robot()?;
-    let listener = bind(args.port)?;
+    let listener = args.bind()?;
     // Who came to press is not disturbed, unless a script was asked for.
     let waits = args.board.named().is_none();
     let options = SourceOptions { realtime: true, repeat: true, waits, ..SourceOptions::default() };
@@ -110,7 +132,7 @@ pub fn run(args: ViewArgs) -> Result<()> {
     let reference = || ShownRobot::read(REFERENCE, Some(REFERENCE), "");
     let shown_robot = if unnamed && shown_robot.is_none() { Some(reference()?) } else { shown_robot };
     shown_robot.into_iter().for_each(|shown_robot| hub.show_robot(shown_robot));
-    announce(&source.label, listener, hub.clone(), args.open)?;
+    args.announce(&source.label, listener, hub.clone())?;
     let folding = args.board.config.folds.as_deref().map(Folding::read).transpose()?;
     let mut viewer = Viewer::new(hub, calibration).folding(folding);
     // Where a board does not listen, the host alone knows the body.
@@ -144,7 +166,7 @@ fn play(args: &ViewArgs, recording: &BoardRecording, speed: f64) -> Result<()> {
     let folding =
         args.board.config.folds.as_deref().map(|folds| Folding::recorded(folds, recording)).transpose()?;
     let player = Player::open(recording, speed, calibration, folding, hub.clone())?;
-    announce(&recording.to_string(), bind(args.port)?, hub, args.open)?;
+    args.announce(&recording.to_string(), args.bind()?, hub)?;
     player.run()
 }
 
@@ -156,9 +178,23 @@ pub fn announce(what: &str, listener: TcpListener, hubs: impl Into<PageHubs>, op
     if open { browser::open(&url) } else { Ok(()) }
 }
 
+/// Sentences for whoever lets other machines in.
+fn words_to_guests(port: u16) -> String {
+    format!(
+        "On another machine or a telephone, put this machine's name or address in place of 127.0.0.1. Whoever has the\n\
+         address has the page. It is not encrypted: whoever listens on the network reads all of it, the token too.\n\
+         Encrypted, without --listen: ssh -L {port}:127.0.0.1:{port} THIS-MACHINE, then http://127.0.0.1:{port}/ there."
+    )
+}
+
 /// Binds to the loopback interface.
 pub fn bind(port: Option<u16>) -> Result<TcpListener> {
-    let listen = |port| TcpListener::bind((Ipv4Addr::LOCALHOST, port));
+    bind_at(Ipv4Addr::LOCALHOST, port)
+}
+
+/// Binds to an interface.
+fn bind_at(interface: Ipv4Addr, port: Option<u16>) -> Result<TcpListener> {
+    let listen = |port| TcpListener::bind((interface, port));
     let wanted = port.unwrap_or(PORT);
     let listener = match (listen(wanted), port) {
         (Err(_), None) => listen(0),

@@ -17,6 +17,9 @@ pub fn run(args: &ViewArgs, robot: &ReadRobot) -> Result<()> {
     if args.joints.is_some() {
         bail!(Fault::usage("--joints is for a board: --requests sends a robot's joints"));
     }
+    if args.listen {
+        bail!(Fault::usage("--listen is for one board: name it, robot.toml#hand"));
+    }
     let requests = RequestLines::of(args.board.requests.as_deref())?;
     let mind = RobotMind::new(robot)?;
     let pages = pages(robot)?;
