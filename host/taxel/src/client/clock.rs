@@ -7,7 +7,7 @@
 //! intersected with the new ones. A trip that waited in a queue has wider bounds, and does no harm. The rate
 //! is bounded likewise, from bounds of the offset that are minutes apart.
 //!
-//! Assumptions: the rates differ by [`RATE_LIMIT`] at most, and that difference changes by [`WANDER`] at
+//! Assumptions: the rates differ by `RATE_LIMIT` at most, and that difference changes by `WANDER` at
 //! most. An empty intersection means that an assumption failed or a clock was set; then only the last trip is
 //! kept.
 

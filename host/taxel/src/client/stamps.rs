@@ -97,7 +97,7 @@ impl Stamps {
         Stamp { board_us, host_us, uncertainty_us: None }
     }
 
-    /// The board's time of a stamp, us: the inverse of [`Stamps::of_time`]. None before the first message,
+    /// The board's time of a stamp, us: the inverse of `Stamps::of_time`. None before the first message,
     /// and for stamps from before the board's start.
     pub fn board_time(&self, client: &Client, host_us: u64) -> Option<Micros> {
         let by_clock = client.board_time_at(host_us).filter(|time| time.0 > 0);

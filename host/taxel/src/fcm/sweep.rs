@@ -27,7 +27,7 @@ pub struct Sweep {
     pub unsettled: (usize, Option<Inputs>),
 }
 
-/// Runs a map from a grid of activations of its entries: the finest grid of up to [`STARTS`] points; random
+/// Runs a map from a grid of activations of its entries: the finest grid of up to `STARTS` points; random
 /// points of the coarsest grid if that has more.
 pub fn sweep(file: &MapFile) -> Result<Sweep> {
     let map = BoardMap::build(file)?;

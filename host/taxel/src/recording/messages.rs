@@ -64,7 +64,7 @@ impl Messages {
         })
     }
 
-    /// Opens a file for one topic; see [`Messages::of_topics`].
+    /// Opens a file for one topic; see `of_topics`.
     pub fn of_topic(path: &Path, topic: &str) -> Result<Messages> {
         Messages::of_topics(path, &[topic.into()])
     }

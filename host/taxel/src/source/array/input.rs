@@ -19,7 +19,7 @@ pub enum ArrayInput {
         has_datagrams: bool,
     },
     /// A recording, which has the times of arrival, too.
-    Recorded(RecordedBytes),
+    Recorded(Box<RecordedBytes>),
 }
 
 impl ArrayInput {

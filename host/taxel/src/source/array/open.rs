@@ -70,7 +70,7 @@ fn opened(
         ArrayLink::Listen(port) => link(Box::new(Listener::open(*port)?)),
         ArrayLink::Udp(port) => link(Box::new(Datagrams::open(*port)?)),
         ArrayLink::File(path) => match recording(path) {
-            Some(recording) => ArrayInput::Recorded(RecordedBytes::open(&recording)?),
+            Some(recording) => ArrayInput::Recorded(Box::new(RecordedBytes::open(&recording)?)),
             None => link(Box::new(Piped::new(input::open(path)?)?)),
         },
         ArrayLink::Stdin => link(Box::new(Piped::new(std::io::stdin())?)),
