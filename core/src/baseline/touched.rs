@@ -1,14 +1,17 @@
 //! Places of the contacts, to be asked of many taxels.
 
 use super::feedback::{Feedback, Pressed};
+use crate::capacity::TAXELS;
 use crate::fold::consecutive;
 use crate::garment::Layout;
-use crate::image::taxel_bits::TaxelBits;
 use core::ops::Range;
+
+/// Words of a bit for each taxel, and one more, so that each of those has a next one.
+const WORDS: usize = TAXELS.div_ceil(32) + 1;
 
 /// A bit for each taxel within some taxels of a contact.
 pub(crate) struct Touched {
-    taxels: TaxelBits,
+    taxels: [u32; WORDS],
     /// True if it is none of those that were asked for.
     pub is_empty: bool,
 }
@@ -23,7 +26,7 @@ impl Touched {
         beside: u16,
         asked: &Range<usize>,
     ) -> Touched {
-        let mut touched = Touched { taxels: TaxelBits::NONE, is_empty: true };
+        let mut touched = Touched { taxels: [0; WORDS], is_empty: true };
         for Pressed { rect, .. } in feedback.home.iter().chain(&feedback.beyond) {
             let Some(area) = layout.areas().get(usize::from(rect.panel)) else { continue };
             let [left, top] = [rect.left, rect.top].map(|first| first.saturating_sub(beside));
@@ -40,11 +43,26 @@ impl Touched {
             // As many columns at a time as a word has bits.
             while count > 0 {
                 let bits = u32::MAX >> 32u16.saturating_sub(count);
-                touched.taxels.mark(corner, bits, (bottom.saturating_sub(top), columns));
+                touched.mark(corner, bits, (bottom.saturating_sub(top), columns));
                 (corner, count) = (corner + 32, count.saturating_sub(32));
             }
         }
         touched
+    }
+
+    /// Marks taxels from `first` on, by bits, in so many rows of a panel of so many columns.
+    #[inline(never)] // M0+: own registers
+    fn mark(&mut self, mut first: usize, bits: u32, (rows, columns): (u16, usize)) {
+        for _ in 0..rows {
+            let (word, bit) = (first / 32, first % 32);
+            if let Some([word, next]) = self.taxels.get_mut(word..).and_then(|words| words.first_chunk_mut())
+            {
+                *word |= bits << bit;
+                // In two steps: by 32 nothing can be shifted.
+                *next |= bits >> 1 >> (31 - bit);
+            }
+            first += columns;
+        }
     }
 
     /// All bits of each byte, of four, whose taxel is one of them.
@@ -61,20 +79,24 @@ impl Touched {
     /// A bit for each of four taxels that follow each other.
     #[inline(always)]
     pub fn four(&self, first: usize) -> u32 {
-        self.taxels.from(first) & 0xF
+        let (word, bit) = (first / 32, first % 32);
+        let Some([word, next]) = self.taxels.get(word..).and_then(|words| words.first_chunk()) else {
+            return 0;
+        };
+        // In two steps: by 32 nothing can be shifted.
+        (word >> bit | next << 1 << (31 - bit)) & 0xF
     }
 
     /// True if a taxel is one of them.
     #[inline(always)]
     pub fn has(&self, taxel: usize) -> bool {
-        self.taxels.has(taxel)
+        self.taxels.get(taxel / 32).is_some_and(|word| word >> (taxel % 32) & 1 == 1)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capacity::TAXELS;
     use crate::garment::{Garment, Rect};
 
     #[test]

@@ -58,7 +58,6 @@ pub use tables::PieceToStore;
 use crate::acquire::{Scan, ScanError};
 use crate::boot::{Aside, Boot};
 use crate::capacity;
-use crate::condition::{MARGIN, Sampled};
 use crate::format::{Code, Micros};
 use crate::garment::{Circuit, Garment, PANELS};
 use crate::health;
@@ -405,14 +404,6 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
         outbox.enqueue_raw(frame, time, scan.codes.get(..layout.taxels()).unwrap_or(scan.codes));
         let tare = percept.tare;
         self.calibration.progress(tare, effects!(self));
-        if cfg!(feature = "surface") && touched {
-            let Setup { layout, circuit, scene, .. } = &self.setup;
-            let (codes, falling, panels) = (scan.codes, circuit.falling(), scene.plan.panels);
-            let sampled = Sampled { codes, falling, panels, now: time };
-            // More than that is an impulse.
-            let most = scene.contact.low.saturating_add(MARGIN);
-            self.surface.take_rims(|table| self.state.rims(table, layout, &sampled, most));
-        }
         let is_tared = self.calibration.is_tared();
         if self.taxels.watch(scan.codes, (touched, is_tared), perception!(self), effects!(self)) {
             self.lines.raise(now);
@@ -834,7 +825,7 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> Board<TAXELS, R
                 number,
                 tx_frame,
                 |pressing, table| state.doubt(pressing, table, layout, values, senses),
-                |pressing, table, rims| state.press(pressing, table, layout, values, rims),
+                |pressing, table| state.press(pressing, table, layout, values),
             )
         };
         outbox.prepare(now, &about, (elsewhere, put), health, platform);

@@ -10,7 +10,7 @@ use crate::body::Placed;
 use crate::format::Micros;
 use crate::garment::Layout;
 use crate::pipeline::CONTACTS;
-use crate::surface::{Pressing, Rims, SurfaceState, Table};
+use crate::surface::{Pressing, SurfaceState, Table};
 use crate::symbol::Words;
 use crate::wire::{Each, Poses, Report};
 
@@ -20,10 +20,8 @@ pub(super) struct Surface {
     table: Option<&'static [u8]>,
     fits: bool,
     poses: SurfaceState,
-    /// Reports of the regions, and rims of the contacts to report: without the feature there is no room for
-    /// them.
+    /// Reports of the regions: without the feature there is no room for them.
     regions: [RegionReports; USED],
-    rims: [Rims<CONTACTS>; USED],
     hz: u16,
     rate: Pace,
     /// Frame to report.
@@ -41,7 +39,6 @@ impl Surface {
             fits: false,
             poses: SurfaceState::new(),
             regions: [const { RegionReports::new() }; USED],
-            rims: [Rims::NONE; USED],
             hz: 0,
             rate: Pace::NEVER,
             due: None,
@@ -129,15 +126,6 @@ impl Surface {
         }
     }
 
-    /// Takes the rims of the present contacts, by a table, if they are to be reported.
-    pub fn take_rims(&mut self, rims: impl FnOnce(&Table<'_>) -> Rims<CONTACTS>) {
-        if self.due.is_some()
-            && let (Some(table), Some(own)) = (self.table(), self.rims.first_mut())
-        {
-            *own = rims(&table);
-        }
-    }
-
     /// Reports that are due.
     pub fn due(&self) -> Reports {
         if !cfg!(feature = "surface") {
@@ -156,7 +144,7 @@ impl Surface {
         number: u32,
         tx_frame: &mut TxFrame,
         doubt: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
-        sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>, &Rims<CONTACTS>),
+        sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
     ) -> bool {
         let table = self.table();
         let regions = self.regions.first_mut();
@@ -172,7 +160,7 @@ impl Surface {
         &mut self,
         tx_frame: &mut TxFrame,
         doubt: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
-        sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>, &Rims<CONTACTS>),
+        sum: impl FnOnce(&mut Pressing<CONTACTS>, &Table<'_>),
     ) -> bool {
         let Some((frame, time)) = self.due.take() else { return true };
         let Some(table) = self.table().filter(|_| !self.rate.is_never()) else {
@@ -182,7 +170,7 @@ impl Surface {
         };
         let mut pressing = Pressing::new();
         doubt(&mut pressing, &table);
-        sum(&mut pressing, &table, self.rims.first().unwrap_or(&Rims::NONE));
+        sum(&mut pressing, &table);
         let frames = self.poses.at(time);
         let (contacts, links) = (pressing.contacts(&frames), pressing.links(&table));
         self.reported = contacts.len() > 0;

@@ -130,15 +130,6 @@ impl<const TAXELS: usize> TaxelCalibration<TAXELS> {
         Some(pressures)
     }
 
-    /// Pressure of a taxel at a code, counts, below 0 beyond its baseline; held at 2^11 codes.
-    #[inline(always)] // M0+: called for each taxel of a rim
-    pub fn signed_pressure(&self, taxel: usize, code: Code, falling: bool) -> Option<i32> {
-        let (rest, gain) = (*self.baseline.get(taxel)?, *self.gain.get(taxel)?);
-        let beyond = i32::from(code.0) - i32::from(rest);
-        let beyond = if falling { -beyond } else { beyond };
-        Some(if gain == UNITY { beyond } else { (beyond.clamp(-2048, 2047) * i32::from(gain) + 2048) >> 12 })
-    }
-
     /// Pressure of a taxel at a code, counts.
     #[inline(always)] // M0+: called for taxels that fold
     pub fn pressure(&self, taxel: usize, code: Code, falling: bool) -> u16 {

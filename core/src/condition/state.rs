@@ -137,12 +137,6 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
         self.pressure(taxel, code, falling).saturating_sub(expected)
     }
 
-    /// Pressure of a taxel at a code, counts, below 0 beyond its baseline; none where the garment folds.
-    #[inline(always)] // M0+: called for each taxel of a rim
-    pub(crate) fn signed_pressure(&self, taxel: usize, code: Code, falling: bool) -> Option<i32> {
-        if self.folds.holds(taxel) { None } else { self.calibration.signed_pressure(taxel, code, falling) }
-    }
-
     /// Pressure of a taxel at a code, counts.
     pub fn pressure(&self, taxel: usize, code: Code, falling: bool) -> u16 {
         self.calibration.pressure(taxel, code, falling)

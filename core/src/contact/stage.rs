@@ -2,7 +2,7 @@
 
 use crate::baseline::feedback::Feedback;
 use crate::format::{Invalid, Micros};
-use crate::garment::{Area, Layout, Side};
+use crate::garment::{Area, Layout};
 use crate::image::view::Image;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
@@ -190,19 +190,14 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
         }
     }
 
-    /// True if something touched that side of a panel in the last frame.
-    pub(crate) fn touches(&self, panel: u8, side: Side) -> bool {
-        self.labeller.touches(panel, side)
-    }
-
     /// Age of the forms of the last frame's contacts, frames, in the order of their onset.
     pub fn form_ages(&self) -> &[u8] {
         self.tracks.ages()
     }
 
-    /// Index in [`Touches::present`] of the last frame's contact at a taxel; none beyond the panel.
+    /// Index in [`Touches::present`] of the last frame's contact at a taxel.
     pub fn contact_at(&self, layout: &Layout, place: crate::garment::Place) -> Option<usize> {
-        let area = layout.areas().get(usize::from(place.panel)).filter(|area| place.row < area.rows)?;
+        let area = layout.areas().get(usize::from(place.panel))?;
         self.tracks.index_of(self.labeller.contact_at(area, place.row, place.column)?)
     }
 }

@@ -2,13 +2,11 @@
 //!
 //! [`images`] holds a frame before and after the filter, [`view`] is what later stages read. [`rows`] marks
 //! the columns of each row that may be non-zero, [`row_set`] the rows; [`slices`] finds panels and rows in
-//! lists by taxel number, and [`row16`] is the row of sixteen, and [`taxel_bits`]
-//! has a bit for each taxel.
+//! lists by taxel number, and [`row16`] is the row of sixteen.
 
 pub(crate) mod images;
 pub(crate) mod row16;
 pub(crate) mod row_set;
 pub(crate) mod rows;
 pub(crate) mod slices;
-pub(crate) mod taxel_bits;
 pub(crate) mod view;

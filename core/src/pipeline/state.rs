@@ -2,7 +2,7 @@
 
 use super::compose::Pipeline;
 use crate::body::Placed;
-use crate::condition::{ConditionState, Image, Sampled};
+use crate::condition::{ConditionState, Image};
 use crate::contact::ContactState;
 #[cfg(feature = "folds")]
 use crate::fold::Doubt;
@@ -14,7 +14,7 @@ use crate::health::FaultyTaxel;
 use crate::intent::{Fed, IntentState};
 use crate::react::{ReactState, Reaction, Reactions};
 use crate::shape::Taught;
-use crate::surface::{NO_LINK, Pressing, Rims, Table, TaxelLimits, links_of};
+use crate::surface::{Pressing, Table, TaxelLimits};
 use crate::symbol::SymbolState;
 use crate::unsure::UnsureState;
 #[cfg(feature = "folds")]
@@ -138,30 +138,8 @@ impl<const TAXELS: usize, const RUNS: usize, const PARTS: usize> PipelineState<T
         table: &Table<'_>,
         layout: &Layout,
         values: &[u16],
-        rims: &Rims<CONTACTS>,
     ) {
-        pressing.sum(table, &self.contact, layout, [self.condition.calibrated(), values], rims);
-    }
-
-    /// Sums up the rims of the contacts of the last frame, which has these codes of these panels. `most` is
-    /// the most that a taxel of a rim may feel, counts.
-    #[inline(never)] // own stack
-    pub(crate) fn rims(
-        &self,
-        table: &Table<'_>,
-        layout: &Layout,
-        Sampled { codes, falling, panels, .. }: &Sampled<'_>,
-        most: u16,
-    ) -> Rims<CONTACTS> {
-        let most = i32::from(most);
-        let mut links = links_of(table, layout);
-        let unread = links.iter_mut().enumerate().filter(|(panel, _)| panels >> panel & 1 == 0);
-        unread.for_each(|(_, link)| *link = NO_LINK);
-        Rims::of(&self.contact, layout, &links, |taxel| {
-            let code = codes.get(taxel).copied();
-            let felt = code.and_then(|code| self.condition.signed_pressure(taxel, code, *falling));
-            felt.filter(|felt| (-most..=most).contains(felt)).unwrap_or(0)
-        })
+        pressing.sum(table, &self.contact, layout, [self.condition.calibrated(), values]);
     }
 
     /// Taxels under those contacts that do not say what they feel. `full` is the code at the end of the

@@ -10,8 +10,7 @@
 //!
 //! A host makes the table from a body file (`taxel body table`). Places are in metres in the frame of the
 //! link, right-handed. Taxels feel only what presses along their normals: friction is not part of any force.
-//! Forces are in counts, as pressure is; a calibration makes newtons of both. A force is that of the taxels of
-//! a contact and of its [rim](Rims), which has no part in its place.
+//! Forces are in counts, as pressure is; a calibration makes newtons of both.
 
 mod frames;
 mod motion;
@@ -19,7 +18,6 @@ mod place;
 mod pose;
 mod press;
 mod regions;
-mod rim;
 mod stage;
 mod table;
 mod taxel;
@@ -30,8 +28,6 @@ pub use motion::{CARRIED_US, LinkMotion};
 pub use place::SurfacePoint;
 pub use pose::{Pose, Quaternion};
 pub use regions::{BodyDirection, ONSET_MS, RELEASED_MS, RegionPhase, RegionStates, RegionSymbol};
-pub use rim::Rims;
-pub(crate) use stage::links_of;
 pub use stage::{InBase, Landed, Pressing, TaxelLimits, Wrench};
 pub use table::{Table, table_bytes, write_table};
 pub use taxel::{NO_REGION, TaxelRecord};
@@ -44,9 +40,6 @@ pub const LINKS: usize = if cfg!(feature = "surface") { PANELS } else { 0 };
 
 /// Most regions of a body. None without the feature `surface`.
 pub const REGIONS: usize = if cfg!(feature = "surface") { 24 } else { 0 };
-
-/// Number that stands for no link.
-pub(crate) const NO_LINK: u8 = u8::MAX;
 
 /// Most bytes of the name of a link or of a region: the longest in robots' descriptions have about 30.
 pub const LINK_NAME: usize = 40;

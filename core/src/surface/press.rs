@@ -6,7 +6,6 @@
 
 use crate::contact::PressedRuns;
 use crate::filter::points::MARGIN;
-use crate::format::Inverse;
 use crate::segment::bits::WORD;
 
 /// Most that taxels may press together so that their products fit in 32 bits: 65,535 * 2^15 < 2^31.
@@ -159,30 +158,6 @@ impl PressSums {
     pub fn moment(&self) -> [i64; 3] {
         let [_, moment] = self.sums();
         moment
-    }
-
-    /// Adds a rim, counts, that presses where these taxels do: each sum grows by the same share.
-    pub fn widen(&mut self, rim: i32) {
-        let pressed = self.pressed();
-        if rim == 0 || pressed == 0 {
-            return;
-        }
-        let rim = rim.max((pressed as i32).wrapping_neg());
-        // The share in units of 2^-15, below one unless the rim outweighs its contact.
-        let share = Inverse::of(pressed).nearest(i64::from(rim) << 15);
-        let held = self.held.saturating_add_signed(rim);
-        if self.settled == 0 && held <= TOGETHER && rim.unsigned_abs() <= self.held {
-            for sum in &mut self.near {
-                *sum = sum.wrapping_add((i64::from(*sum).wrapping_mul(share.into()) >> 15) as i32);
-            }
-            self.held = held;
-            return;
-        }
-        self.settle(self.near, self.held);
-        (self.near, self.held) = ([0; 6], 0);
-        let more = |sum: i64| sum.wrapping_mul(share.into()) >> 15;
-        self.wide.iter_mut().for_each(|sum| *sum = sum.wrapping_add(more(*sum)));
-        self.settled = self.settled.saturating_add_signed(rim);
     }
 
     /// Adds other sums.

@@ -3,11 +3,10 @@
 use super::frames::LinkFrames;
 use super::place::SurfacePoint;
 use super::press::{BATCH, NO_RECORD, PressSums, PressedImage};
-use super::rim::Rims;
 use super::table::Table;
 use super::taxel::TaxelRecord;
 use super::uncertainty::{BlindTaxel, Uncertainty, distance, most_at, of_faulty};
-use super::{LINKS, LinkName, Micrometres, NO_LINK, UnitVector};
+use super::{LINKS, LinkName, Micrometres, UnitVector};
 use crate::contact::{ContactState, Slot};
 use crate::format::{Inverse, signed_wide};
 use crate::garment::{Layout, PANELS, Place};
@@ -23,7 +22,7 @@ pub struct Landed {
     pub id: u32,
     /// Centroid on the surface, in the frame of the link.
     pub spot: SurfacePoint,
-    /// Force of its taxels and its [rim](Rims) on that link, counts; those of other links count there.
+    /// Force of its taxels on that link, counts; those of other links count there.
     pub force: [i32; 3],
     /// Contact in the frame of the poses, if the host has sent one for this link.
     pub base: Option<InBase>,
@@ -47,7 +46,7 @@ pub struct Wrench<Called = LinkName> {
     pub link: u8,
     /// Name of the link.
     pub name: Called,
-    /// Sum of the forces of the taxels and their [rims](Rims), counts.
+    /// Sum of the taxels' forces, counts.
     pub force: [i32; 3],
     /// Their moment about the link's origin, counts times mm.
     pub moment: [i64; 3],
@@ -105,8 +104,8 @@ impl LinkSums {
     const NONE: LinkSums = LinkSums { press: PressSums::NONE, saturated: 0, places: [0; 3], totals: 0 };
 }
 
-/// Number that stands for no contact with a place.
-const NONE: u8 = NO_LINK;
+/// Number that stands for no link, and for no contact with a place.
+const NONE: u8 = u8::MAX;
 
 impl<const CONTACTS: usize> Pressing<CONTACTS> {
     /// Nothing presses.
@@ -122,7 +121,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
     }
 
     /// Places the contacts of the last frame, and sums up what presses on each link: the pressure of their
-    /// taxels before and after the filter, see `press.rs`, and of their rims. Built in place: call it once.
+    /// taxels before and after the filter, see `press.rs`. Built in place: call it once.
     #[inline(never)] // M0+: out of line
     pub fn sum<const RUNS: usize, const LABELS: usize, S: Slot>(
         &mut self,
@@ -130,7 +129,6 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
         contact: &ContactState<CONTACTS, RUNS, LABELS, S>,
         layout: &Layout,
         images: [&[u16]; 2],
-        rims: &Rims<CONTACTS>,
     ) {
         let mut placed = [(NONE, NONE); CONTACTS];
         for ((index, placed), slot) in (0..).zip(&mut placed).zip(contact.present()) {
@@ -162,10 +160,7 @@ impl<const CONTACTS: usize> Pressing<CONTACTS> {
                 sums.press(&image, &pressed, &mut batch);
             }
         });
-        // What is there so far lies on other links than the places of its contacts.
-        self.sums.iter_mut().zip(rims.away()).for_each(|(sums, rim)| sums.press.widen(rim));
-        for landing in &mut self.landings {
-            landing.sums.widen(rims.of_contact(landing.contact));
+        for landing in &self.landings {
             if let Some(sums) = self.sums.get_mut(usize::from(landing.spot.link)) {
                 sums.add(landing);
             }
@@ -379,13 +374,13 @@ fn reach(table: &Table<'_>, blind: &BlindTaxel, from: Micrometres) -> u32 {
 }
 
 /// Link of each panel: that of its first taxel with a place.
-pub(crate) fn links_of(table: &Table<'_>, layout: &Layout) -> [u8; PANELS] {
-    let mut links = [NO_LINK; PANELS];
+fn links_of(table: &Table<'_>, layout: &Layout) -> [u8; PANELS] {
+    let mut links = [NONE; PANELS];
     for (link, area) in links.iter_mut().zip(layout.areas()) {
         let taxels = table.taxels().get(usize::from(area.base)..).unwrap_or(&[]);
         let count = usize::from(area.rows) * usize::from(area.columns);
         let placed = taxels.iter().take(count).find(|taxel| taxel.is_placed());
-        *link = placed.map_or(NO_LINK, |taxel| taxel.link);
+        *link = placed.map_or(NONE, |taxel| taxel.link);
     }
     links
 }

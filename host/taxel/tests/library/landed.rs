@@ -12,8 +12,8 @@ use taxel_core::garment::{Garment, Layout};
 use taxel_core::health::{FaultyTaxel, TaxelHealth};
 use taxel_core::scene::Scene;
 use taxel_core::surface::{
-    CARRIED_US, Landed, LinkFrames, LinkMotion, LinkName, LinkPose, ONE, Pose, Pressing, Rims, SurfaceState,
-    Table, TaxelLimits, Wrench, table_bytes,
+    CARRIED_US, Landed, LinkFrames, LinkMotion, LinkName, LinkPose, ONE, Pose, Pressing, SurfaceState, Table,
+    TaxelLimits, Wrench, table_bytes,
 };
 use taxel_core::wire::Request;
 
@@ -65,7 +65,7 @@ fn felt(dressed: &Dressed, values: &[u16], frames: &LinkFrames) -> (Felt, Vec<Co
     let contacts = contacts(&dressed.layout, values);
     let table = Table::check(&dressed.table, &dressed.layout).unwrap();
     let mut pressing = Pressing::new();
-    pressing.sum(&table, &contacts, &dressed.layout, [values; 2], &Rims::NONE);
+    pressing.sum(&table, &contacts, &dressed.layout, [values; 2]);
     let owned = |wrench: Wrench<&str>| Wrench {
         link: wrench.link,
         name: LinkName::try_from(wrench.name).unwrap(),
@@ -282,7 +282,7 @@ fn what_faulty_and_saturated_taxels_leave_unknown_is_bounded() {
         let (truth, _) = felt(&dressed, &whole, &LinkFrames::NONE);
         let contacts = contacts(&dressed.layout, &values);
         let mut pressing = Pressing::new();
-        pressing.sum(&table, &contacts, &dressed.layout, [&values; 2], &Rims::NONE);
+        pressing.sum(&table, &contacts, &dressed.layout, [&values; 2]);
         let senses = TaxelLimits { faulty: &faulty, ceiling: |_| u16::MAX };
         pressing.doubt(&table, &contacts, &dressed.layout, [&values; 2], &senses);
         let doubts: Vec<_> = pressing.doubts_of_links(&table).collect();
@@ -311,7 +311,7 @@ fn what_faulty_and_saturated_taxels_leave_unknown_is_bounded() {
     let full = values.iter().filter(|value| **value == ceiling).count();
     let contacts = contacts(&dressed.layout, &values);
     let mut pressing = Pressing::new();
-    pressing.sum(&table, &contacts, &dressed.layout, [&values; 2], &Rims::NONE);
+    pressing.sum(&table, &contacts, &dressed.layout, [&values; 2]);
     assert!(!pressing.is_in_doubt());
     let senses = TaxelLimits { faulty: &[], ceiling: |_| ceiling };
     pressing.doubt(&table, &contacts, &dressed.layout, [&values; 2], &senses);

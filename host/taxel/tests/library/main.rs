@@ -12,7 +12,6 @@ mod errors;
 mod faults;
 mod fcm;
 mod folds;
-mod forces;
 mod hand;
 mod health;
 mod landed;
