@@ -12,8 +12,8 @@
 //! | temperature | [`Celsius`] | degree | -327.68 ..= 327.67 | 0.01 degrees |
 //! | activation, share, anisotropy | [`Q15`] | 1 | -1 ..= 1 (any `i32` in sums) | 2^-15 (3.1e-5) |
 //!
-//! The largest errors of the core's results are in `docs/evidence/bounds.md`, each with the test that asserts it.
-//! No function of this folder can fail: each doc gives the result outside the function's range.
+//! The largest errors of the core's results are in `docs/evidence/bounds.md`, each with its
+//! test. No function of this folder can fail: each doc gives the result outside the function's range.
 //!
 //! Floats appear only in the `to_f64` and `to_radians` conversions of this folder, which are for hosts, tests
 //! and set-up code; no function of the per-frame path calls them.

@@ -4,8 +4,8 @@
 //! learning vector quantisation (GLVQ) in the space of [`features`](super::features). The examples are drawn
 //! by three generators that share no formula for pressure, on grids of 4 x 16, 16 x 16 and 32 x 64
 //! (`core/tests/core/shape/kinds`). `core/tests/core/shape/base` learns the prototypes anew, asserts that they
-//! are these, and judges each generator by a base that was learned without it. `docs/evidence/shapes.md` has the
-//! figures.
+//! are these, and judges each generator by a base that was learned without it. `docs/evidence/shapes.md` has
+//! the figures.
 
 use super::features::{FEATURES, ShapeFeatures};
 use super::knn::{Class, Prototype};
