@@ -34,8 +34,8 @@ macro_rules! states {
 }
 
 states! {
-    ConditionState<TAXELS>, "condition/mod.rs", 34488, 34520;
-    ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 58024, 58080;
+    ConditionState<TAXELS>, "condition/mod.rs", 34696, 34728;
+    ContactState<CONTACTS, RUNS, PARTS, Placed>, "contact/mod.rs", 58040, 58096;
     HardnessCue, "measure/hardness.rs", 20, 20;
     PostureState, "fold/mod.rs", 96, 96;
     FoldState, "fold/mod.rs", 12896, 12928;
@@ -48,7 +48,7 @@ states! {
     Reflex<TAXELS>, "reflex/mod.rs", 8968, 9000;
     Shapes, "shape/mod.rs", 20, 40;
     SymbolState<CONTACTS>, "symbol/mod.rs", 760, 768;
-    UnsureState<CONTACTS>, "unsure.rs", 648, 656;
+    UnsureState<CONTACTS>, "unsure.rs", 1032, 1040;
 }
 
 #[cfg(test)]

@@ -5,20 +5,25 @@
 //! | input | contacts of a frame, drift of each panel, time |
 //! | output | the contacts that are unsure |
 //! | latency | none |
-//! | RAM | [`UnsureState`] of 32 contacts: 648 bytes |
-//! | M0+ cycles | about 60 a contact |
+//! | RAM | [`UnsureState`] of 32 contacts: 1,032 bytes |
+//! | M0+ cycles | about 90 a contact |
 //!
 //! A patch of a garment that warms up shows the same codes as an object that presses equally slowly; no
 //! measurement distinguishes the two. A contact is unsure from the start if it came up slowly: for 0.4 s
 //! before, something was nearly a contact in its panel, or another contact there is unsure, of which it may
-//! be a part. It becomes sure once its peak has risen by more than 16 counts within 0.5 s: no drift that the
-//! garment is specified for does that (5 counts/s in a patch, half as much again for a taxel). It is unsure
-//! again once its panel has drifted, since the contact began, by twice its peak or more: taxels drift at 0.5
-//! to 1.5 times the rate of their panel, so that all of it may be drift.
+//! be a part, or its panel drifts and it begins with no more than drift and noise explain. It becomes sure
+//! once its peak has risen within 0.5 s by more than they explain: 16 counts where nothing drifts and noise is
+//! 3 counts rms, more by the measured noise and drift of its panel. It is unsure again once its panel has
+//! drifted, since the contact began, by twice its peak or more: taxels drift at 0.5 to 1.5 times the rate of
+//! their panel, so that all of it may be drift.
+//!
+//! What a contact covers while its panel drifts may grow by drift, too. It holds the baseline where it lay when
+//! its peak last rose faster, or when it came to another place.
 
 use crate::body::Placed;
+use crate::contact::Contact;
 use crate::format::Micros;
-use crate::garment::PANELS;
+use crate::garment::{PANELS, Rect};
 use heapless::Vec;
 
 /// A touch is nearly a contact for less than this time before it becomes one, us. Drift at 7.5 counts/s takes
@@ -30,10 +35,6 @@ const PAUSE_US: u64 = 200_000;
 
 /// Window within which a touch rises by more than drift does, us.
 const WINDOW_US: u32 = 500_000;
-
-/// Rise of a peak that drift and noise may cause within [`WINDOW_US`], counts: four for the drift of a patch,
-/// twelve for noise.
-const RISE: u16 = 16;
 
 /// State of the contacts of the last frame, in the order of their onset.
 #[derive(Debug, Clone)]
@@ -50,6 +51,19 @@ struct Faint {
     last: Micros,
 }
 
+/// Drift and noise of a panel, as far as they may be a contact.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct DriftLimits {
+    /// Drift so far, counts.
+    pub drifted: i32,
+    /// Rise of a peak within [`WINDOW_US`], counts.
+    pub rise: u16,
+    /// Least peak of a contact that begins, counts.
+    pub least: u16,
+    /// True if the panel does not drift.
+    pub still: bool,
+}
+
 /// State of a contact.
 #[derive(Debug, Clone)]
 struct Watched {
@@ -58,12 +72,14 @@ struct Watched {
     since: u32,
     /// Drift of its panel when the contact came there, counts modulo 2^16: a converter has no more.
     drifted: i16,
-    /// Least peak since the window began, counts.
-    least: u16,
+    /// While it is slow, its least peak since the window began, counts; then its greatest of late.
+    reference: u16,
     panel: u8,
     /// True until it rises faster than drift.
     slow: bool,
     unsure: bool,
+    /// Where it holds the baseline: what it covered when it last rose faster than drift.
+    rect: Rect,
 }
 
 impl<const CONTACTS: usize> UnsureState<CONTACTS> {
@@ -78,6 +94,12 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
         self.watched.get(index).is_some_and(|watched| watched.unsure)
     }
 
+    /// Where the contact of this index in the last frame holds the baseline, and whether it never rose faster
+    /// than drift.
+    pub(crate) fn hold(&self, index: usize) -> Option<(Rect, bool)> {
+        self.watched.get(index).map(|watched| (watched.rect, watched.slow))
+    }
+
     /// True if a contact became unsure or sure with the last frame.
     pub const fn has_changed(&self) -> bool {
         self.changed
@@ -89,24 +111,24 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
     }
 
     /// Takes the contacts of a frame, in the order of their onset. `faint` has a bit for each panel in which
-    /// something is nearly a contact; `drifted` returns the drift of a panel so far, counts.
+    /// something is nearly a contact; `explained` returns the drift and noise of a panel.
     #[inline(never)] // M0+: out of line
     pub(crate) fn process(
         &mut self,
         present: &[Placed],
         faint: u8,
-        drifted: impl Fn(u8) -> i32,
+        explained: impl Fn(u8) -> DriftLimits,
         now: Micros,
     ) {
         self.changed = false;
         let ids = || present.iter().map(|placed| placed.contact.id);
         if !self.watched.iter().map(|watched| watched.id).eq(ids()) {
-            self.begin(present, &drifted, now);
+            self.begin(present, &explained, now);
         }
         for (watched, placed) in self.watched.iter_mut().zip(present) {
             let was = watched.unsure;
-            let drifted = drifted(placed.contact.panel) as i16;
-            watched.follow(placed.contact.panel, placed.contact.peak, drifted, now.0 as u32);
+            let explained = explained(placed.contact.panel);
+            watched.follow(&placed.contact, explained, now.0 as u32);
             self.changed |= watched.unsure != was;
         }
         if faint != 0 {
@@ -116,16 +138,28 @@ impl<const CONTACTS: usize> UnsureState<CONTACTS> {
     }
 
     /// Forgets the contacts that have gone, and watches the new ones.
-    fn begin(&mut self, present: &[Placed], drifted: impl Fn(u8) -> i32, now: Micros) {
+    fn begin(&mut self, present: &[Placed], explained: impl Fn(u8) -> DriftLimits, now: Micros) {
         self.watched.retain(|watched| present.iter().any(|placed| placed.contact.id == watched.id));
         for placed in present.iter().skip(self.watched.len()) {
-            let (panel, least) = (placed.contact.panel, placed.contact.peak);
-            let faint = self.faint.get(usize::from(panel));
-            let slow = faint.is_some_and(|faint| faint.is_slow(now))
+            let (panel, peak, rect) = (placed.contact.panel, placed.contact.peak, placed.contact.bounds);
+            let DriftLimits { drifted, rise, least, still } = explained(panel);
+            let came_slowly = self.faint.get(usize::from(panel)).is_some_and(|faint| faint.is_slow(now));
+            let before = if came_slowly { peak } else { peak.min(least - least / 4) };
+            let slow = came_slowly
+                || !still && peak <= before.saturating_add(rise)
                 || self.watched.iter().any(|other| other.slow && other.panel == panel);
-            let (id, since, drifted) = (placed.contact.id, now.0 as u32, drifted(panel) as i16);
+            let (id, since, drifted) = (placed.contact.id, now.0 as u32, drifted as i16);
             // Always room: as many places as contacts.
-            let _ = self.watched.push(Watched { id, since, drifted, least, panel, slow, unsure: false });
+            let _ = self.watched.push(Watched {
+                id,
+                since,
+                drifted,
+                reference: before,
+                panel,
+                slow,
+                unsure: false,
+                rect,
+            });
         }
     }
 }
@@ -145,19 +179,30 @@ impl Faint {
 }
 
 impl Watched {
-    fn follow(&mut self, panel: u8, peak: u16, drifted: i16, now: u32) {
+    fn follow(&mut self, contact: &Contact, limits: DriftLimits, now: u32) {
+        let (panel, peak, drifted) = (contact.panel, contact.peak, limits.drifted as i16);
         if panel != self.panel {
             (self.panel, self.drifted) = (panel, drifted);
         }
-        if self.slow {
-            self.slow = peak <= self.least.saturating_add(RISE);
-            if now.wrapping_sub(self.since) >= WINDOW_US {
-                (self.since, self.least) = (now, peak);
-            }
-            self.least = self.least.min(peak);
+        let rises = peak > self.reference.saturating_add(limits.rise);
+        let is_over = now.wrapping_sub(self.since) >= WINDOW_US;
+        self.slow &= !rises;
+        self.reference = match self.slow {
+            false if is_over => peak.max(self.reference - self.reference / 4),
+            false => peak.max(self.reference),
+            true if is_over => peak,
+            true => peak.min(self.reference),
+        };
+        if is_over {
+            self.since = now;
         }
-        let way = drifted.wrapping_sub(self.drifted).unsigned_abs();
-        self.unsure = self.slow || way / 2 >= peak;
+        let way = drifted.wrapping_sub(self.drifted).unsigned_abs() / 2;
+        // Noise of the peak makes it sure no sooner than it is a quarter more.
+        let doubted = if self.unsure { way.saturating_add(way / 4) } else { way };
+        if limits.still || rises || self.slow || contact.bounds.has_left(&self.rect) {
+            self.rect = contact.bounds;
+        }
+        self.unsure = self.slow || doubted >= peak;
     }
 }
 
@@ -174,6 +219,10 @@ mod tests {
     use crate::garment::{Garment, Layout};
     use crate::shape::Shape;
 
+    fn at(drifted: i32) -> DriftLimits {
+        DriftLimits { drifted, rise: 16, least: 40, still: drifted == 0 }
+    }
+
     fn placed(id: u32, panel: u8, peak: u16) -> Placed {
         let layout = Layout::build(&Garment::reference(), 2048, 4095).unwrap();
         Placed::new(&layout, Contact::of_nine(id, panel, u32::from(peak) * 9), Shape::default())
@@ -188,7 +237,7 @@ mod tests {
             let present = [placed(7, 0, peak(t) as u16)];
             let count = usize::from(present[0].contact.peak >= 40);
             let faint = u8::from(count == 0 && present[0].contact.peak >= 30);
-            state.process(&present[..count], faint, |_| (rate * t) as i32, Micros(now));
+            state.process(&present[..count], faint, |_| at((rate * t) as i32), Micros(now));
         }
         state.is_unsure(0)
     }
@@ -218,7 +267,7 @@ mod tests {
         for (pause_ms, slow) in [(150, true), (300, false)] {
             let mut state = UnsureState::<4>::new();
             let mut step = |ms: u64, contacts: &[Placed], faint: u8| {
-                state.process(contacts, faint, |_| 0, Micros(1_000 * ms));
+                state.process(contacts, faint, |_| at(0), Micros(1_000 * ms));
                 state.is_unsure(0)
             };
             for ms in (0..2_000).step_by(5) {
@@ -232,11 +281,11 @@ mod tests {
     fn what_begins_beside_what_is_unsure_may_be_a_part_of_it() {
         let mut state = UnsureState::<4>::new();
         for ms in (0..1_000).step_by(5) {
-            state.process(&[], 1, |_| 0, Micros(1_000 * ms));
+            state.process(&[], 1, |_| at(0), Micros(1_000 * ms));
         }
         let later = [placed(1, 0, 44), placed(2, 0, 44), placed(3, 1, 44)];
-        state.process(&later[..1], 0, |_| 0, Micros(1_000_000));
-        state.process(&later, 0, |_| 0, Micros(3_000_000));
+        state.process(&later[..1], 0, |_| at(0), Micros(1_000_000));
+        state.process(&later, 0, |_| at(0), Micros(3_000_000));
         assert_eq!([0, 1, 2].map(|index| state.is_unsure(index)), [true, true, false]);
     }
 
@@ -254,7 +303,7 @@ mod tests {
         let mut state = UnsureState::<4>::new();
         let mut step = |ids: &[u32], peak: u16, faint: u8, ms: u64| {
             let present: heapless::Vec<Placed, 4> = ids.iter().map(|id| placed(*id, 0, peak)).collect();
-            state.process(&present, faint, |_| 0, Micros(1_000 * ms));
+            state.process(&present, faint, |_| at(0), Micros(1_000 * ms));
             (state.ids().collect::<heapless::Vec<u32, 4>>(), state.has_changed())
         };
         let list = |ids: &[u32]| ids.iter().copied().collect::<heapless::Vec<u32, 4>>();
@@ -270,10 +319,49 @@ mod tests {
     }
 
     #[test]
+    fn what_a_contact_covers_grows_with_its_peak_alone_while_its_panel_drifts() {
+        let mut state = UnsureState::<4>::new();
+        let mut step = |ms: u64, peak: u16, right: u16, still: bool| {
+            let mut contact = placed(1, 0, peak);
+            contact.contact.bounds.right = right;
+            let limits = |_: u8| DriftLimits { still, ..at(0) };
+            state.process(&[contact], 0, limits, Micros(1_000 * ms));
+            state.hold(0).map(|(rect, slow)| (rect.right, slow))
+        };
+        assert_eq!(step(0, 900, 5, true), Some((5, false)));
+        assert_eq!(step(5, 900, 6, true), Some((6, false)));
+        for ms in 2..200 {
+            assert_eq!(step(5 * ms, 900 + (ms % 10) as u16, 9, false), Some((6, false)));
+        }
+        assert_eq!(step(1_000, 930, 9, false), Some((9, false)));
+        // In another place it is as it is, unless it has spread.
+        let mut at_columns = |left: u16, right: u16| {
+            let mut contact = placed(1, 0, 930);
+            (contact.contact.bounds.left, contact.contact.bounds.right) = (left, right);
+            state.process(&[contact], 0, |_| DriftLimits { still: false, ..at(0) }, Micros(1_005_000));
+            state.hold(0).map(|(rect, _)| (rect.left, rect.right))
+        };
+        assert_eq!(at_columns(10, 15), Some((10, 15)));
+        assert_eq!(at_columns(11, 16), Some((10, 15)));
+        assert_eq!(at_columns(16, 28), Some((10, 15)));
+        assert_eq!(at_columns(16, 26), Some((16, 26)));
+    }
+
+    #[test]
+    fn a_touch_on_a_drifting_panel_is_sure_once_it_exceeds_what_drift_explains() {
+        for (peak, slow) in [(40, true), (46, true), (47, false), (90, false)] {
+            let mut state = UnsureState::<4>::new();
+            let limits = |_: u8| DriftLimits { still: false, ..at(0) };
+            state.process(&[placed(1, 0, peak)], 0, limits, Micros(0));
+            assert_eq!(state.is_unsure(0), slow, "{peak}");
+        }
+    }
+
+    #[test]
     fn a_contact_that_crosses_to_another_panel_counts_the_drift_of_that_one() {
         let mut state = UnsureState::<4>::new();
         for (ms, panel) in [(0, 0), (5, 0), (10, 1), (600, 1)] {
-            let drifted = |panel: u8| 3_000 * i32::from(panel);
+            let drifted = |panel: u8| at(3_000 * i32::from(panel));
             state.process(&[placed(1, panel, 900)], 0, drifted, Micros(1_000 * ms));
             assert!(!state.is_unsure(0), "{ms} ms");
         }

@@ -1,5 +1,6 @@
 //! Drift of the panels as a whole.
 
+use super::missed::{Followed, Missed};
 use super::rates::COMMON;
 use crate::format::Code;
 use crate::garment::{Area, PANELS};
@@ -20,13 +21,32 @@ const APART: i32 = 8;
 /// Largest common step in a turn that counts as drift, counts; beyond it an input is broken.
 const BROKEN: i32 = 2 * COMMON;
 
-/// Drift in a turn above which a panel is fast, counts.
+/// Drift in a turn above which a panel drifts, and above which it drifts fast, counts.
+const DRIFTS: i32 = 2;
 const FAST: i32 = 4;
 
-/// Most half-turns for which a panel stays fast after its last fast one, and half-turns added by each fast
-/// one. Noise hides the drift from the witnesses now and then, and drift that reverses is slow for seconds.
-const LASTING: u8 = 40;
-const LASTS: u8 = 4;
+/// Shift by which a panel's mean drift follows that of a turn, in each half-turn: noise of the witnesses is
+/// smoothed. Shift by which its pace fades: drift that reverses is slow for seconds.
+const SMOOTHED: u32 = 3;
+const FADES: u32 = 6;
+
+/// Mean distance of untouched codes from their baselines before any was measured, Q8: that of noise of 4.8
+/// counts rms.
+const USUAL_NOISE: i32 = 1_000;
+/// Shift of a row's sum of distances: a turn or two of a panel of 32 rows set the mean, ten of one of four.
+const SLOWLY: u32 = 10;
+/// Most taxels of a row that are summed up: with more the mean would swing.
+const MEASURED: i32 = 512;
+
+/// How fast a panel drifts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Pace {
+    /// Not at all, or as slowly as a taxel may differ from its panel.
+    Still,
+    Slow,
+    /// Faster than any slow touch rises.
+    Fast,
+}
 
 /// Drift of each panel per turn, counts.
 ///
@@ -39,10 +59,12 @@ const LASTS: u8 = 4;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Consensus {
     panels: [PanelDrift; PANELS],
-    /// True if one of the panels drifts fast.
+    /// True if one of the panels drifts fast in this turn, and if one does or did in the last seconds.
     fast: bool,
-    /// Votes until no panel drifts fast, or did recently: as many as panels vote in a half-turn.
-    restless: u8,
+    was_fast: bool,
+    /// Mean distance of the untouched codes of each panel from their baselines moved in common, counts in Q8
+    /// beyond [`USUAL_NOISE`]: noise, and what is left of drift.
+    noise: [i16; PANELS],
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,32 +72,53 @@ struct PanelDrift {
     /// Code of each witness if it had drifted with the panel; limited to 0 and 65535.
     known: [u16; WITNESSES],
     begun: bool,
+    /// What its witnesses miss.
+    missed: Missed,
     /// Drift in the previous half-turn, and in this one.
     steps: [i8; 2],
     /// Total drift, modulo 2^32.
     drifted: i32,
-    /// Half-turns for which it still counts as fast.
-    lately: u8,
+    /// Mean drift in a turn over some half-turns, and its greatest size of late, counts in Q4.
+    mean: i16,
+    pace: u16,
 }
 
 impl PanelDrift {
+    const NONE: PanelDrift = PanelDrift {
+        known: [0; WITNESSES],
+        begun: false,
+        missed: Missed::NONE,
+        steps: [0; 2],
+        drifted: 0,
+        mean: 0,
+        pace: 0,
+    };
+
     /// Drift in a whole turn.
     fn in_turn(&self) -> i32 {
         i32::from(self.steps[0]) + i32::from(self.steps[1])
+    }
+
+    fn pace(&self) -> Pace {
+        match i32::from(self.pace) {
+            pace if pace > FAST << 4 => Pace::Fast,
+            pace if pace > DRIFTS << 4 => Pace::Slow,
+            _ => Pace::Still,
+        }
     }
 }
 
 impl Consensus {
     pub const fn new() -> Self {
-        let panel = PanelDrift { known: [0; WITNESSES], begun: false, steps: [0; 2], drifted: 0, lately: 0 };
-        Consensus { panels: [panel; PANELS], fast: false, restless: 0 }
+        Consensus { panels: [PanelDrift::NONE; PANELS], fast: false, was_fast: false, noise: [0; PANELS] }
     }
 
     /// Begins again after baselines have been set.
     pub fn forget(&mut self) {
-        let begin = |panel: &mut PanelDrift| (panel.begun, panel.steps, panel.lately) = (false, [0; 2], 0);
+        let begin =
+            |panel: &mut PanelDrift| *panel = PanelDrift { drifted: panel.drifted, ..PanelDrift::NONE };
         self.panels.iter_mut().for_each(begin);
-        (self.fast, self.restless) = (false, 0);
+        (self.fast, self.was_fast) = (false, false);
     }
 
     /// Drift of a panel in this turn, counts.
@@ -88,19 +131,53 @@ impl Consensus {
         self.panels.get(usize::from(panel)).map_or(0, |panel| panel.drifted)
     }
 
-    /// True if the panel drifts fast, or did recently.
-    pub fn was_fast(&self, panel: u8) -> bool {
-        self.panels.get(usize::from(panel)).is_some_and(|panel| panel.lately > 0)
+    /// Takes what an untouched row of a panel showed.
+    pub fn measure(&mut self, panel: u8, row: Followed) {
+        let index = usize::from(panel);
+        if let Some(noise) = self.noise.get_mut(index) {
+            let (sum, count) = (row.distance.min(0xffff) as i32, row.count.min(0xffff) as i32);
+            let beyond = (sum << 8) - count * (USUAL_NOISE + i32::from(*noise));
+            let step = if count > MEASURED { 0 } else { beyond >> SLOWLY };
+            *noise = (i32::from(*noise) + step).clamp(-USUAL_NOISE, i16::MAX.into()) as i16;
+        }
+        if let Some(panel) = self.panels.get_mut(index) {
+            panel.missed.add(row);
+        }
     }
 
-    /// True if one of the panels drifts fast.
+    /// Drift of a panel in this turn beyond the step of its witnesses, counts.
+    pub fn missed(&self, panel: u8) -> i32 {
+        self.panels.get(usize::from(panel)).map_or(0, |panel| panel.missed.step.into())
+    }
+
+    /// Least peak that is clear of the noise of each panel, counts: five times its standard deviation, which is
+    /// a quarter more than the mean distance.
+    pub fn clear_of_noise(&self) -> [u16; PANELS] {
+        self.noise.map(|noise| (noise_of(noise) * 25 >> 10) as u16)
+    }
+
+    /// Rise of a peak within half a second that drift and noise of a panel may cause, counts: four for a patch,
+    /// four times the standard deviation of the noise, and what the fastest taxel drifts.
+    pub fn unexplained_rise(&self, panel: u8) -> u16 {
+        let index = usize::from(panel);
+        let noise = self.noise.get(index).map_or(0, |noise| noise_of(*noise) / 51);
+        let pace = self.panels.get(index).map_or(0, |panel| panel.pace >> 4);
+        4 + noise.max(12) as u16 + 2 * pace
+    }
+
+    /// How fast a panel drifts, or did in the last seconds.
+    pub fn pace(&self, panel: u8) -> Pace {
+        self.panels.get(usize::from(panel)).map_or(Pace::Still, PanelDrift::pace)
+    }
+
+    /// True if one of the panels drifts fast in this turn.
     pub const fn is_fast(&self) -> bool {
         self.fast
     }
 
-    /// True if one of the panels drifts fast, or did recently.
-    pub const fn is_restless(&self) -> bool {
-        self.restless > 0
+    /// True if one of the panels drifts fast, or did in the last seconds.
+    pub const fn was_fast(&self) -> bool {
+        self.was_fast
     }
 
     /// Takes the votes of a panel's witnesses, given the baselines and gains of all taxels. `whole`: a turn
@@ -159,13 +236,20 @@ impl Consensus {
             };
             *known = (i32::from(*known) + step + forgotten).clamp(0, 0xffff) as u16;
         }
-        panel.lately = match panel.in_turn().abs() > FAST {
-            true => panel.lately.saturating_add(LASTS).min(LASTING),
-            false => panel.lately.saturating_sub(1),
-        };
-        self.restless = if panel.lately > 0 { PANELS as u8 } else { self.restless.saturating_sub(1) };
+        if whole {
+            panel.missed.turn(panel.in_turn(), panel.mean.signum().into());
+        }
+        panel.mean += ((panel.in_turn() << 4) as i16 - panel.mean) >> SMOOTHED;
+        let faded = panel.pace.saturating_sub((panel.pace >> FADES) + 1);
+        panel.pace = panel.mean.unsigned_abs().max(faded);
         self.fast = self.panels.iter().any(|panel| panel.in_turn().abs() > FAST);
+        self.was_fast = self.panels.iter().any(|panel| panel.pace() == Pace::Fast);
     }
+}
+
+/// Mean distance of a panel's codes, counts in Q8.
+fn noise_of(beyond_usual: i16) -> u32 {
+    (USUAL_NOISE + i32::from(beyond_usual)).max(0) as u32
 }
 
 /// Drift of a witness beyond the known drift; none if it does not vote: it is touched beyond noise.

@@ -4,17 +4,23 @@
 //! whatever the frame rate. Its taxels move by the common drift of their panel
 //! ([`Consensus`](super::consensus::Consensus)). Taxels farther than one taxel from any contact then move on
 //! towards their own codes by as much as taxels may differ from their panel. A taxel that shows no pressure
-//! moves on by [`OWN`], beside a contact, too: otherwise the surroundings of a contact that is held for long
-//! would drift apart from their panel and join it. A held contact is therefore never absorbed by the
-//! baseline, nor is a slow one once it shows.
-//! While a panel drifts fast, a taxel with less than a sixteenth of a contact's peak does not belong to the
-//! contact: otherwise the surroundings of a contact would not follow, drift away from the panel, join the
+//! moves on by half of the common drift, beside a contact, too: otherwise the surroundings of a contact that
+//! is held for long would drift apart from their panel and join it. A held contact is therefore never absorbed
+//! by the baseline, nor is a slow one once it shows.
+//!
+//! While a panel drifts, what grows no faster is drift ([`Pace`]): a contact holds the baseline where it lay
+//! when it last rose faster. While drift is fast, a contact that may be nothing else holds none, so that it
+//! ends; and a taxel with less than a sixteenth of a contact's peak does not belong to the contact: otherwise
+//! the surroundings of a contact would not follow, drift away from the panel, join the
 //! contact, and stop their own surroundings. A taxel on which the garment's fold presses moves by the common
 //! drift alone. Only a tared baseline drifts; recordings are used unchanged.
 
 use super::consensus::Consensus;
+#[cfg(doc)]
+use super::consensus::Pace;
 use super::feedback::Feedback;
-use super::rates::{OWN, beside};
+use super::missed::Followed;
+use super::rates::{OWN, beside, under};
 use super::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
 use crate::calibrate::sampled::Sampled;
@@ -63,7 +69,7 @@ impl Tracking {
             if at == 0 || at == half {
                 drift.ask(&mut self.consensus, panel, area, at == 0);
             } else {
-                drift.follow(&self.consensus, panel, area, at - 1 - u16::from(at > half));
+                drift.follow(&mut self.consensus, panel, area, at - 1 - u16::from(at > half));
             }
         }
     }
@@ -74,19 +80,19 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
     fn ask(&self, consensus: &mut Consensus, panel: u8, area: &Area, whole: bool) {
         let Drift { calibration, images, sampled, feedback, folds, .. } = self;
         let columns = usize::from(area.columns);
-        let fast = consensus.was_fast(panel);
+        let pace = consensus.pace(panel);
         let images = (panel_of(&images.calibrated, area), panel_of(&images.filtered, area));
         let taxels: (&[u16], &[u16]) = (&calibration.baseline, &calibration.gain);
         consensus.vote(panel, area, sampled.codes, taxels, whole, |at| {
             let row = at.checked_div(columns).unwrap_or(0);
-            let shown = images.0.get(at).max(images.1.get(at)).filter(|_| fast).copied().unwrap_or(u16::MAX);
+            let shown = images.0.get(at).max(images.1.get(at)).copied().unwrap_or(0);
             folds.holds(usize::from(area.base) + at)
-                || feedback.presses(panel, row as u16, at.wrapping_sub(row * columns) as u16, shown)
+                || feedback.presses(panel, row as u16, at.wrapping_sub(row * columns) as u16, shown, pace)
         });
     }
 
     /// Moves the baselines of a row.
-    fn follow(&mut self, consensus: &Consensus, panel: u8, area: &Area, row: u16) {
+    fn follow(&mut self, consensus: &mut Consensus, panel: u8, area: &Area, row: u16) {
         let feedback = self.feedback;
         let common = consensus.step(panel);
         let beside = beside(common);
@@ -95,21 +101,25 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         let folds = self.folds;
         let folded = folds.holds_any(first..first + usize::from(area.columns));
         if !touched && !folded && !self.images.rows.contains(area.first_row.saturating_add(row)) {
-            return self.follow_row(area, row, common, |_, _| beside + OWN, |_| 0);
+            let followed = self.follow_row(area, row, common, |_, _| beside + OWN, |_| 0);
+            return consensus.measure(panel, followed);
         }
-        let fast = consensus.was_fast(panel);
+        let common = if touched { common + consensus.missed(panel) } else { common };
+        let pace = consensus.pace(panel);
         let is_held = |column: u16| folded && folds.holds(first + usize::from(column));
-        let own = |column: u16, shown: u16| {
-            let least = if fast { shown } else { u16::MAX };
-            let own = if shown == 0 { OWN } else { 0 };
-            match touched && feedback.presses(panel, row, column, least) {
-                _ if is_held(column) => 0,
-                true => own,
-                false => beside + own,
-            }
+        let own = |column: u16, shown: u16| match touched && feedback.presses(panel, row, column, shown, pace)
+        {
+            _ if is_held(column) => 0,
+            true if shown == 0 => under(common),
+            true => 0,
+            false if shown == 0 => beside + OWN,
+            false => beside,
         };
         let level = |column: u16| if folded { folds.level(first + usize::from(column)) } else { 0 };
-        self.follow_row(area, row, common, own, level);
+        let followed = self.follow_row(area, row, common, own, level);
+        if !touched && !folded {
+            consensus.measure(panel, followed);
+        }
     }
 
     /// Moves the baselines of a row by `common`, and from there towards each taxel's code by at most
@@ -122,21 +132,28 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
         common: i32,
         own: impl Fn(u16, u16) -> i32,
         level: impl Fn(u16) -> u16,
-    ) {
+    ) -> Followed {
         let Drift { calibration, images, sampled, terms, .. } = self;
         let silent = terms.silent();
         let TaxelCalibration { baseline, gain, limit, .. } = &mut **calibration;
         let images = row_of(&images.calibrated, area, row).iter().zip(row_of(&images.filtered, area, row));
         let limits = row_mut(limit, area, row).iter_mut().zip(row_of(gain, area, row));
         let taxels = row_mut(baseline, area, row).iter_mut().zip(limits);
+        let mut followed = Followed::default();
         for (column, ((rest, (limit, gain)), (code, (before, after)))) in
             (0u16..).zip(taxels.zip(row_of(sampled.codes, area, row).iter().zip(images)))
         {
             let was = i32::from(*rest);
             let own = own(column, *before.max(after));
-            let step = (i32::from(code.0) - was).min(common + own).max(common - own);
+            let beyond = i32::from(code.0) - was - common;
+            let step = common + beyond.min(own).max(-own);
             let now = (was + step).clamp(0, 0xffff);
             let step = now - was;
+            if *gain != 0 {
+                followed.count += 1;
+                followed.distance = followed.distance.saturating_add(beyond.unsigned_abs());
+                followed.beyond = followed.beyond.saturating_add(step - common);
+            }
             if step == 0 {
                 continue;
             }
@@ -147,5 +164,6 @@ impl<const TAXELS: usize, const CONTACTS: usize> Drift<'_, TAXELS, CONTACTS> {
                 limit => (i32::from(limit) + step).clamp(0, 0xffff) as u16,
             };
         }
+        followed
     }
 }

@@ -114,7 +114,7 @@ mod tests {
             ] {
                 let rect = Rect { panel: layout.areas().len() as u8 - 1, top, bottom, left, right };
                 let mut feedback = Feedback::<4>::new();
-                feedback.home.push(Pressed { rect, peak: 1 }).unwrap();
+                feedback.home.push(Pressed { rect, peak: 1, slow: false }).unwrap();
                 let touched = Touched::of(&layout, &feedback, beside, &(0..TAXELS));
                 // The same of some taxels, if only they are asked for.
                 for asked in [0..1, 3..40, layout.taxels() / 2..layout.taxels()] {

@@ -6,7 +6,7 @@
 //! | output | [`Image`]: `u16` counts above the baseline by taxel number, and the rows that may be non-zero |
 //! | saturation | at 0 and at 65535 counts |
 //! | latency | none; a point that presses a single taxel passes one frame later |
-//! | RAM | [`ConditionState`] of 2,048 taxels: 34,488 bytes, a third of it for [folds](crate::fold) |
+//! | RAM | [`ConditionState`] of 2,048 taxels: 34,696 bytes, a third of it for [folds](crate::fold) |
 //! | M0+ cycles | 12 k where nothing touches, 15 k with a contact of 29 taxels, 28 k with five, 136 k at most |
 //!
 //! The cycles are of the reference garment, 12 bit, with noise; at most: with texture on all 2,048 taxels.

@@ -1,5 +1,6 @@
 //! State of the stage: the calibration of every taxel and the last image.
 
+use crate::baseline::consensus::Pace;
 use crate::baseline::progress::Tare;
 use crate::baseline::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
@@ -10,7 +11,7 @@ use crate::fold::{FoldState, PostureState};
 use crate::format::Code;
 #[cfg(feature = "folds")]
 use crate::format::Name;
-use crate::garment::Layout;
+use crate::garment::{Layout, PANELS};
 use crate::image::images::Images;
 
 /// Baseline, gain and image of every taxel.
@@ -106,7 +107,22 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
 
     /// True while a panel drifts fast, and for some seconds after it did.
     pub fn drifts_fast(&self) -> bool {
-        self.tracking.consensus.is_restless()
+        self.tracking.consensus.was_fast()
+    }
+
+    /// How fast a panel drifts, or did in the last seconds.
+    pub(crate) fn pace(&self, panel: u8) -> Pace {
+        self.tracking.consensus.pace(panel)
+    }
+
+    /// Least peak that is clear of the noise of each panel, counts.
+    pub(crate) fn clear_of_noise(&self) -> [u16; PANELS] {
+        self.tracking.consensus.clear_of_noise()
+    }
+
+    /// Rise of a peak within half a second that drift and noise of a panel may cause, counts.
+    pub(crate) fn unexplained_rise(&self, panel: u8) -> u16 {
+        self.tracking.consensus.unexplained_rise(panel)
     }
 
     /// Gains by taxel number, Q4.12.

@@ -90,7 +90,7 @@ fn touch(feedback: &mut Feedback<4>, drawn: &mut Drawn) {
     if drawn.below(2) == 0 {
         let (top, left) = (drawn.below(12) as u16, drawn.below(12) as u16);
         let rect = Rect { panel: drawn.below(2) as u8, top, bottom: top + 3, left, right: left + 3 };
-        feedback.home.push(Pressed { rect, peak: 300 }).unwrap();
+        feedback.home.push(Pressed { rect, peak: 300, slow: false }).unwrap();
     }
 }
 

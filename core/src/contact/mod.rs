@@ -6,7 +6,7 @@
 //! | output | [`Touches`]: contacts in integers and fixed point, those just released, exact [`Moments`] |
 //! | saturation | none in the moments; each field says its own |
 //! | latency | none; a slip is reported in the third frame of a motion |
-//! | RAM | [`ContactState`]: 58,024 bytes |
+//! | RAM | [`ContactState`]: 58,040 bytes |
 //! | M0+ cycles | 2 k where nothing touches, 21 k with a contact of 29 taxels, 61 k with five |
 //!
 //! The RAM is that of the [capacities](crate::capacity) that ship, with what later stages keep in the table of

@@ -2,7 +2,7 @@
 
 use crate::baseline::feedback::Feedback;
 use crate::format::{Invalid, Micros};
-use crate::garment::{Area, Layout};
+use crate::garment::{Area, Layout, PANELS, Rect};
 use crate::image::view::Image;
 use crate::measure::component::{Component, Components};
 use crate::measure::contact::Contact;
@@ -132,9 +132,18 @@ impl<const CONTACTS: usize, const RUNS: usize, const LABELS: usize, S: Slot>
     }
 
     /// Sets whether the baseline of a panel drifts fast: then no contact begins below the high threshold,
-    /// however small the taxels are.
-    pub fn set_drifting(&mut self, drifting: bool) {
-        self.components.drifting = drifting;
+    /// however small the taxels are; and the least peak that is clear of the noise of each panel, counts.
+    pub fn set_drifting(&mut self, drifting: bool, clear: [u16; PANELS]) {
+        (self.components.drifting, self.components.clear) = (drifting, clear);
+    }
+
+    /// Sets where each of the present contacts, by index, holds the baseline, and whether it may be drift.
+    pub(crate) fn hold(&mut self, hold: impl Fn(usize) -> Option<(Rect, bool)> + Clone) {
+        let contacts = self.tracks.contacts().iter().map(S::contact).enumerate();
+        self.feedback.hold(
+            contacts
+                .filter_map(|(index, contact)| hold(index).map(|hold| (contact.bounds, contact.peak, hold))),
+        );
     }
 
     /// The contacts' rectangles and peaks, for the conditioning of the next frame.

@@ -102,4 +102,16 @@ impl Rect {
             && column + margin >= self.left
             && column <= self.right + margin
     }
+
+    /// True if the rectangle shares no taxel with another one, and is at most twice as high and as wide.
+    pub const fn has_left(&self, other: &Rect) -> bool {
+        let apart = self.panel != other.panel
+            || self.top > other.bottom
+            || other.top > self.bottom
+            || self.left > other.right
+            || other.left > self.right;
+        apart
+            && self.bottom - self.top <= 2 * (other.bottom - other.top) + 1
+            && self.right - self.left <= 2 * (other.right - other.left) + 1
+    }
 }

@@ -4,7 +4,7 @@ use super::carried::CarriedLabels;
 use super::moments::{FEW, Moments, is_small};
 use crate::baseline::feedback::{CARRIED, Feedback, Pressed};
 use crate::format::{Fixed16, Inverse, WIDE};
-use crate::garment::{Area, Layout, Place, Rect};
+use crate::garment::{Area, Layout, PANELS, Place, Rect};
 use crate::image::view::Image;
 use crate::segment::config::ContactConfig;
 use crate::segment::labeller::Labeller;
@@ -70,12 +70,21 @@ pub(crate) struct Components<const CONTACTS: usize> {
     pub faint: u8,
     /// True while the baseline of a panel drifts fast.
     pub drifting: bool,
+    /// Least peak that is clear of the noise of each panel, counts.
+    pub clear: [u16; PANELS],
 }
 
 impl<const CONTACTS: usize> Components<CONTACTS> {
     pub const fn new() -> Self {
         const { assert!(CONTACTS < NONE as usize, "a contact is numbered with 16 bits") };
-        Components { list: Vec::new(), beyond: Vec::new(), dropped: 0, faint: 0, drifting: false }
+        Components {
+            list: Vec::new(),
+            beyond: Vec::new(),
+            dropped: 0,
+            faint: 0,
+            drifting: false,
+            clear: [0; PANELS],
+        }
     }
 
     /// Picks the components that are contacts; if they do not fit, those with the greatest totals.
@@ -103,7 +112,8 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
                 Candidate { label: index, joined: label.joined, begins: true, total, peak, area, panel };
             if panel != of.0 {
                 let Some(area) = layout.areas().get(usize::from(panel)) else { continue };
-                of = (panel, config.least_peak(area, self.drifting));
+                let clear = self.clear.get(usize::from(panel)).copied().unwrap_or(0);
+                of = (panel, config.least_peak(area, self.drifting, clear));
             }
             let least_peak = of.1;
             found.begins = u32::from(peak) >= least_peak;
@@ -294,11 +304,11 @@ impl<const CONTACTS: usize> Components<CONTACTS> {
         feedback.beyond.clear();
         // Each list has the capacity of its source. (`extend` would panic on a full one.)
         for component in &self.list {
-            let _ = feedback.home.push(Pressed { rect: component.bounds, peak: component.peak });
+            let _ = feedback.home.push(Pressed { rect: component.bounds, peak: component.peak, slow: false });
         }
         for (contact, rect) in &self.beyond {
             let peak = self.list.get(usize::from(*contact)).map_or(0, |component| component.peak);
-            let _ = feedback.beyond.push(Pressed { rect: *rect, peak });
+            let _ = feedback.beyond.push(Pressed { rect: *rect, peak, slow: false });
         }
     }
 }
@@ -536,7 +546,7 @@ mod tests {
             let layout = Layout::build(&garment, 3072, 4095).unwrap();
             let mut felt = Feedback::<4>::new();
             let rect = Rect { panel: 0, top: 1, bottom: 1, left: 4, right: 5 };
-            felt.home.push(Pressed { rect, peak: 100 }).unwrap();
+            felt.home.push(Pressed { rect, peak: 100, slow: false }).unwrap();
             for (peak, area, drifting, goes_on) in (16..100)
                 .flat_map(|peak| [1, 2].map(|area| (peak, area)))
                 .flat_map(|(peak, area)| [false, true].map(|drifting| (peak, area, drifting)))

@@ -4,13 +4,15 @@ use super::compose::Pipeline;
 use super::percept::Percept;
 use super::probe::{Probe, Stage};
 use super::state::{CONTACTS, PipelineState};
+use crate::baseline::consensus::Pace;
 use crate::body::Placed;
-use crate::condition::{Image, Sampled};
+use crate::condition::{ConditionState, Image, Sampled};
 use crate::contact::ContactState;
 use crate::format::{Code, Micros};
-use crate::garment::Layout;
+use crate::garment::{Layout, PANELS};
 use crate::intent::{Felt, Intent, Touch};
 use crate::shape::{Shape, Taught};
+use crate::unsure::DriftLimits;
 
 impl Pipeline {
     /// Processes one frame of codes, scanned at `now`.
@@ -30,17 +32,18 @@ impl Pipeline {
         let condition = &*condition;
         let image = self.condition.image(condition, layout);
         probe.begin(Stage::Contact);
-        contact.set_drifting(condition.drifts_fast());
+        contact.set_drifting(condition.drifts_fast(), condition.clear_of_noise());
         let touches = self.contact.process(contact, layout, &image, now);
         probe.begin(Stage::Shape);
         let dropped = touches.dropped.saturating_add(touches.overflow);
         let faint = touches.faint;
         self.place(contact, layout);
         look(taught, contact, layout, &image);
+        unsure.process(contact.present(), faint, |panel| self.explained(condition, layout, panel), now);
+        let unsure = &*unsure;
+        contact.hold(|index| unsure.hold(index));
         let contact = &*contact;
         let (present, released) = (contact.present(), contact.released());
-        unsure.process(present, faint, |panel| condition.drifted(panel), now);
-        let unsure = &*unsure;
         probe.begin(Stage::Symbol);
         self.symbol.process(symbol, layout, present, released, now);
         #[cfg(feature = "gesture")]
@@ -58,7 +61,7 @@ impl Pipeline {
             let folds = condition.folds();
             let own = folds.posture.moves(now) && !folds.is_followed();
             let touch = strongest(sure()).map(|placed| Touch { own, ..self.touch(layout, placed) });
-            let mut felt = self.felt(layout, sure(), condition.drifts_fast());
+            let mut felt = self.felt(layout, sure(), (condition.drifts_fast(), condition.clear_of_noise()));
             if stage.embraces() {
                 add_parts(&mut felt, contact, layout);
             }
@@ -119,7 +122,12 @@ impl Pipeline {
     }
 
     /// Inputs of the map from all contacts that are not unsure.
-    fn felt<'p>(&self, layout: &Layout, sure: impl Iterator<Item = &'p Placed>, drifting: bool) -> Felt {
+    fn felt<'p>(
+        &self,
+        layout: &Layout,
+        sure: impl Iterator<Item = &'p Placed>,
+        (drifting, clear): (bool, [u16; PANELS]),
+    ) -> Felt {
         let mut felt = Felt::default();
         let config = self.contact.config();
         let mut least = config.high;
@@ -128,12 +136,30 @@ impl Pipeline {
             if contact.panel != panel.0 {
                 let area = layout.areas().get(usize::from(contact.panel));
                 panel = (contact.panel, area.map_or(0, |area| area.cell_mm2));
-                let peak = area.map_or(0, |area| config.least_peak(area, drifting));
+                let clear = clear.get(usize::from(contact.panel)).copied().unwrap_or(0);
+                let peak = area.map_or(0, |area| config.least_peak(area, drifting, clear));
                 least = peak.min(u16::MAX.into()) as u16;
             }
             felt.add(*region, contact.total, contact.peak, contact.area, panel.1, least);
         }
         felt
+    }
+
+    /// Drift and noise of a panel, as far as they may be a contact there.
+    fn explained<const TAXELS: usize>(
+        &self,
+        condition: &ConditionState<TAXELS>,
+        layout: &Layout,
+        panel: u8,
+    ) -> DriftLimits {
+        let area = layout.areas().get(usize::from(panel));
+        let least = area.map_or(0, |area| self.contact.config().least_peak(area, condition.drifts_fast(), 0));
+        DriftLimits {
+            drifted: condition.drifted(panel),
+            rise: condition.unexplained_rise(panel),
+            least: least.min(u16::MAX.into()) as u16,
+            still: condition.pace(panel) == Pace::Still,
+        }
     }
 
     /// Area of a taxel at the contact, mm2; 0 if the map does not use hardness.

@@ -32,12 +32,13 @@ pub struct ContactConfig {
 pub const NO_SLIP: u16 = u16::MAX;
 
 impl ContactConfig {
-    /// Returns the peak from which on a contact begins on a panel. However small its taxels are, it is clear
-    /// of noise and, while the baseline drifts fast, of what is left of the drift.
-    pub(crate) fn least_peak(&self, area: &Area, drifting: bool) -> u32 {
+    /// Returns the peak from which on a contact begins on a panel, at most twice the threshold. However small
+    /// its taxels are, it is clear of noise, as `measured` counts are, and, while the baseline drifts, of what
+    /// is left of the drift.
+    pub(crate) fn least_peak(&self, area: &Area, drifting: bool, measured: u16) -> u32 {
         let (high, noise) = (u32::from(self.high), self.noise());
         let clear = if drifting { high } else { high.min(u32::from(self.low) + noise) };
-        (area.counts_of(high - noise) + noise).max(clear)
+        (area.counts_of(high - noise) + noise).max(clear).max(u32::from(measured).min(2 * high))
     }
 
     /// Returns true if a contact goes on with this peak, where the least peak to begin is that: half of its

@@ -144,7 +144,8 @@ proptest! {
                 let (top, left) = (noise.below(area.rows.into()) as u16, noise.below(area.columns.into()) as u16);
                 let (bottom, right) = ((top + 2).min(area.rows - 1), (left + 2).min(area.columns - 1));
                 let rect = Rect { panel: 0, top, bottom, left, right };
-                let _ = feedback.home.push(Pressed { rect, peak: [40, 400, 4000][noise.below(3) as usize] });
+                let peak = [40, 400, 4000][noise.below(3) as usize];
+                let _ = feedback.home.push(Pressed { rect, peak, slow: noise.below(3) == 0 });
             }
         }
     }

@@ -22,8 +22,29 @@ pub struct DenseCondition {
     /// What each panel drifted in the half of a turn before and drifts in this one, and where its witnesses
     /// would be, had they drifted as it has.
     common: Vec<([i32; 2], Option<Vec<i32>>)>,
-    /// Halves of a turn for which each panel is still taken to drift fast.
-    lately: Vec<u8>,
+    /// How fast each panel drifts of late.
+    pace: Vec<Pace>,
+    /// What its witnesses miss.
+    missed: Vec<Missed>,
+}
+
+/// Mean drift of a panel in a turn, and its greatest size of late, sixteenths of a count.
+#[derive(Clone, Copy, Default)]
+struct Pace {
+    mean: i32,
+    greatest: i32,
+}
+
+/// Steps of untouched taxels beyond those of the witnesses: their sum and number in this turn, their mean in
+/// the last one (whole counts, and 256ths left over), and sums of it in the way of the drift and of the
+/// drift, which fade.
+#[derive(Clone, Copy, Default)]
+struct Missed {
+    now: (i32, i32),
+    step: i32,
+    left: i32,
+    lost: i32,
+    way: i32,
 }
 
 impl DenseCondition {
@@ -46,7 +67,8 @@ impl DenseCondition {
             slot: 0,
             due: 0,
             points: Vec::new(),
-            lately: vec![0; common.len()],
+            pace: vec![Pace::default(); common.len()],
+            missed: vec![Missed::default(); common.len()],
             common,
         }
     }
@@ -54,7 +76,8 @@ impl DenseCondition {
     /// No drift is known, as after a baseline was set.
     pub fn forget(&mut self) {
         self.common.fill(([0; 2], None));
-        self.lately.fill(0);
+        self.pace.fill(Pace::default());
+        self.missed.fill(Missed::default());
     }
 
     /// The image of a frame; then the baseline follows drift.
@@ -139,20 +162,51 @@ impl DenseCondition {
         held: &[Pressed],
         shown: &[u16],
     ) {
-        let common = self.in_turn(panel);
+        let told = self.in_turn(panel);
+        let touched = held.iter().any(|Pressed { rect, .. }| {
+            usize::from(rect.panel) == panel && row + 1 >= rect.top && row <= rect.bottom + 1
+        });
+        let common = told + if touched { self.missed[panel].step } else { 0 };
         for column in 0..area.columns {
             let taxel = usize::from(area.base + row * area.columns + column);
             let Some(code) = codes.get(taxel) else { continue };
-            let slow = self.lately[panel] == 0;
-            let presses = |held: &Pressed| slow || shown[taxel] >= held.peak / 16;
-            let near = held.iter().any(|held| held.rect.holds(panel as u8, row, column, 1) && presses(held));
-            // What is common and a quarter of it, if nothing holds it, and a count where nothing shows.
-            let beside = if near { 0 } else { (f64::from(common.abs()) * 1.25).floor() as i32 };
-            let beside = beside + i32::from(shown[taxel] == 0);
+            // Half of what is common, if something holds it, and if not that and a quarter, and a count where
+            // nothing shows.
+            let own = match (self.is_held(panel, row, column, shown[taxel], held), shown[taxel]) {
+                (true, 0) => 1.max((common.abs() + 1) / 2),
+                (true, _) => 0,
+                (false, shown) => (f64::from(told.abs()) * 1.25).floor() as i32 + i32::from(shown == 0),
+            };
             let off = i32::from(code.0) - i32::from(self.rest[taxel]);
-            let step = off.clamp(common - beside, common + beside);
-            self.rest[taxel] = (i32::from(self.rest[taxel]) + step).clamp(0, 65535) as u16;
+            let step = off.clamp(common - own, common + own);
+            let now = (i32::from(self.rest[taxel]) + step).clamp(0, 65535);
+            if !touched && self.gain[taxel] != 0 {
+                let missed = &mut self.missed[panel].now;
+                *missed = (missed.0 + now - i32::from(self.rest[taxel]) - common, missed.1 + 1);
+            }
+            self.rest[taxel] = now as u16;
         }
+    }
+
+    /// True if a contact holds a taxel that shows this much. While its panel drifts fast, that is a sixteenth
+    /// of the peak of a contact that rose faster.
+    fn is_held(&self, panel: usize, row: u16, column: u16, shown: u16, held: &[Pressed]) -> bool {
+        let fast = self.pace[panel].greatest > 64;
+        held.iter().any(|held| {
+            held.rect.holds(panel as u8, row, column, 1) && (!fast || !held.slow && shown >= held.peak / 16)
+        })
+    }
+
+    /// Ends a turn in which the witnesses of a panel told its drift.
+    fn miss(&mut self, panel: usize) {
+        let common = self.in_turn(panel);
+        let Missed { now: (sum, count), left, lost, way, .. } = &mut self.missed[panel];
+        let mean = *sum * 256 / (*count).max(1);
+        *lost += mean * self.pace[panel].mean.signum() - lost.div_euclid(128);
+        *way += 256 * common.abs() - way.div_euclid(128);
+        let all = *left + if 5 * lost.abs() <= *way { mean } else { 0 };
+        *left = all.rem_euclid(256);
+        (self.missed[panel].step, self.missed[panel].now) = (all.div_euclid(256), (0, 0));
     }
 
     /// Sixteen witnesses, an odd distance apart. If seven eighths of those that nothing holds are beyond what
@@ -174,9 +228,7 @@ impl DenseCondition {
         let beyond = |(at, known): (&usize, &i32), noise: u32| {
             let taxel = usize::from(area.base) + at;
             let (row, column) = (*at as u16 / area.columns, *at as u16 % area.columns);
-            let slow = self.lately[panel] == 0;
-            let presses = |held: &Pressed| slow || shown[taxel] >= held.peak / 16;
-            let near = held.iter().any(|held| held.rect.holds(panel as u8, row, column, 1) && presses(held));
+            let near = self.is_held(panel, row, column, shown[taxel], held);
             let code = codes.get(taxel).filter(|_| self.gain[taxel] != 0)?;
             let (code, rest) = (i32::from(code.0), rest(at));
             if near && code.abs_diff(rest) > 4 {
@@ -216,9 +268,13 @@ impl DenseCondition {
             *known = (*known).clamp(0, 65535);
         }
         self.common[panel] = ([before, step], Some(known));
-        let lately = self.lately[panel];
-        self.lately[panel] =
-            if (before + step).abs() > 4 { 40.min(lately + 4) } else { lately.saturating_sub(1) };
+        if whole {
+            self.miss(panel);
+        }
+        let in_turn = self.in_turn(panel);
+        let Pace { mean, greatest } = &mut self.pace[panel];
+        *mean += (16 * in_turn - *mean).div_euclid(8);
+        *greatest = mean.abs().max((*greatest - *greatest / 64 - 1).max(0));
     }
 }
 

@@ -1,4 +1,5 @@
-//! A small random generator, the same on every machine: the worst cases in docs/evidence/bounds.md are of its numbers.
+//! A small random generator, the same on every machine: the worst cases in docs/evidence/bounds.md are of its
+//! numbers.
 #![allow(dead_code)] // each test that uses this takes a part of it
 
 pub struct Noise(pub u64);

@@ -93,7 +93,8 @@ fn expected(part: f64) -> f64 {
     (2048.0 + 7624.0) * part * part
 }
 
-/// The table of `docs/evidence/bounds.md`. Some contacts have several causes, so that fewer begin than to first order.
+/// The table of `docs/evidence/bounds.md`. Some contacts have several causes, so that fewer begin than to first
+/// order.
 #[test]
 fn independent_impulses_begin_as_many_contacts_as_is_reported() {
     let (part, frames) = (0.01, 4_000u32);

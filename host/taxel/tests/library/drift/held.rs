@@ -1,7 +1,7 @@
 //! Touches held while the garment drifts, and touches that cover most of a small one.
 
 use super::is_campaign;
-use super::rig::{Trial, feel, garments};
+use super::rig::{Trial, feel, fine, garments};
 use taxel::sim::Course;
 use taxel_core::garment::Garment;
 
@@ -73,5 +73,47 @@ fn a_block_at_full_speed_feels_what_covers_most_of_it() {
         let felt = feel(&trial, 3.0 + rise_s + hold_s);
         let all = felt.felt(3.0 + rise_s, 3.0 + rise_s + hold_s);
         assert_eq!(all, 1.0, "{shape} of {force_n} N within {rise_s} s");
+    }
+}
+
+/// Ten minutes of a palm on garments at rest and in slow drift, or one of them in the check.
+#[test]
+fn a_palm_is_held_as_one_contact_for_minutes() {
+    let seconds = if is_campaign() { 600.0 } else { 60.0 };
+    for (garment, _) in garments().into_iter().chain([fine()]) {
+        for (rate, most) in [(0.0, 0.11), (1.0, if is_campaign() { 0.65 } else { 0.1 })] {
+            let common = Course { rate, way: 500.0 };
+            let trial = Trial { noise: 3.9, common, ..Trial::new(garment.clone(), 25.0) };
+            let end = 30.3 + seconds;
+            let felt = feel(&trial.touched("palm", 10.0, 30.0, 0.3, seconds), end + 8.0);
+            let first = felt.pressure(32.0, 37.0);
+            let worst = (0..10)
+                .map(|part| end - seconds + 2.0 + (seconds - 2.0) * f64::from(part) / 10.0)
+                .map(|from| (felt.pressure(from, from + (seconds - 2.0) / 10.0) / first - 1.0).abs())
+                .fold(0.0, f64::max);
+            let name = &garment.name;
+            println!("{name}, {rate} counts/s: {first:.0} counts, then up to {:.0} % off", 100.0 * worst);
+            assert!(worst <= most, "{name} at {rate} counts/s: {worst}");
+            assert_eq!(felt.felt(30.5, end), 1.0, "{name}");
+            if rate == 0.0 {
+                assert_eq!((felt.ids.len(), felt.unsure(30.5, end)), (1, 0.0), "{name}");
+                assert_eq!(felt.felt(end + 0.8, end + 8.0), 0.0, "{name}");
+            }
+        }
+    }
+}
+
+/// A garment of two panels: what one palm covers grew by drift, until both panels were one contact.
+#[test]
+fn a_held_contact_does_not_grow_by_drift() {
+    for rate in [10.0, 20.0] {
+        let common = Course { rate, way: 500.0 };
+        let trial = Trial { noise: 3.9, common, ..Trial::new(Garment::reference(), 25.0) };
+        let seconds = if is_campaign() { 300.0 } else { 90.0 };
+        let felt = feel(&trial.touched("palm", 10.0, 30.0, 0.3, seconds), 30.3 + seconds);
+        let first = felt.pressure(32.0, 37.0);
+        let most = felt.course.iter().filter(|(t, ..)| *t > 37.0).map(|(_, total, _)| *total).fold(0.0, f64::max);
+        println!("{rate} counts/s: {first:.0} counts, then at most {most:.0}");
+        assert!(most <= 2.0 * first, "{rate} counts/s: {first}, then {most}");
     }
 }

@@ -3,6 +3,7 @@
 mod chart;
 mod held;
 mod hours;
+mod idle;
 mod limits;
 mod rig;
 

@@ -1,5 +1,6 @@
 //! A drifting garment, and the board's perception of it.
 
+use std::collections::BTreeSet;
 use taxel::files::scripts;
 use taxel::sim::{Course, Drifting, Patch, World};
 use taxel_core::capacity::TAXELS;
@@ -24,6 +25,8 @@ pub struct Trial {
     pub patches: Vec<Patch>,
     /// Touches, as in a script.
     pub touches: String,
+    /// Noise of a sample, counts rms.
+    pub noise: f64,
     pub seed: u64,
 }
 
@@ -49,7 +52,16 @@ impl Trial {
     /// A garment at rest, with this frame rate.
     pub fn new(garment: Garment, hz: f64) -> Trial {
         let common = Course { rate: 0.0, way: 400.0 };
-        Trial { garment, hz, jitter: 0.8, common, patches: Vec::new(), touches: String::new(), seed: 1 }
+        Trial {
+            garment,
+            hz,
+            jitter: 0.8,
+            common,
+            patches: Vec::new(),
+            touches: String::new(),
+            noise: 3.0,
+            seed: 1,
+        }
     }
 
     /// Drifts back and forth at this rate, counts per second.
@@ -77,8 +89,13 @@ pub struct Felt {
     pub course: Vec<(f64, f64, usize)>,
     /// Time (s) of the frames in which a contact was unsure.
     pub unsure: Vec<f64>,
-    /// All intentions that led.
+    /// Ids of all contacts.
+    pub ids: BTreeSet<u32>,
+    /// Ids of the contacts that were sure in some frame.
+    pub sure: BTreeSet<u32>,
+    /// All intentions that led, and when each began or ended (s).
     pub led: Vec<Leading>,
+    pub led_at: Vec<f64>,
 }
 
 impl Felt {
@@ -107,9 +124,10 @@ impl Felt {
 /// Plays it for this many seconds.
 pub fn feel(trial: &Trial, seconds: f64) -> Felt {
     let text = format!(
-        "duration_s = {}\nseed = {}\n[idle]\nbase_code = {BASE}\nspread_counts = 10\nnoise_counts = 3\n{}",
+        "duration_s = {}\nseed = {}\n[idle]\nbase_code = {BASE}\nspread_counts = 10\nnoise_counts = {}\n{}",
         seconds.ceil(),
         trial.seed,
+        trial.noise,
         trial.touches
     );
     let script = scripts::parse(&text, "drift.toml").expect("a script");
@@ -137,7 +155,14 @@ pub fn feel(trial: &Trial, seconds: f64) -> Felt {
         let percept = pipeline.process(&mut *state, &layout, &codes, false, Micros(start), &mut ());
         let total: u64 = percept.present.iter().map(|placed| u64::from(placed.contact.total)).sum();
         felt.course.push((now, total as f64, percept.present.len()));
+        let unsure: Vec<u32> = percept.unsure.ids().collect();
+        let ids = percept.present.iter().map(|placed| placed.contact.id);
+        felt.ids.extend(ids.clone());
+        felt.sure.extend(ids.filter(|id| !unsure.contains(id)));
         felt.unsure.extend(percept.unsure.ids().next().map(|_| now));
-        felt.led.extend(percept.meaning.filter(|meaning| meaning.changed).map(|meaning| meaning.leading));
+        if let Some(meaning) = percept.meaning.filter(|meaning| meaning.changed) {
+            felt.led.push(meaning.leading);
+            felt.led_at.push(now);
+        }
     }
 }
