@@ -40,7 +40,7 @@ const MEASURED: i32 = 512;
 
 /// How fast a panel drifts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Pace {
+pub(crate) enum DriftPace {
     /// Not at all, or as slowly as a taxel may differ from its panel.
     Still,
     Slow,
@@ -99,11 +99,11 @@ impl PanelDrift {
         i32::from(self.steps[0]) + i32::from(self.steps[1])
     }
 
-    fn pace(&self) -> Pace {
+    fn pace(&self) -> DriftPace {
         match i32::from(self.pace) {
-            pace if pace > FAST << 4 => Pace::Fast,
-            pace if pace > DRIFTS << 4 => Pace::Slow,
-            _ => Pace::Still,
+            pace if pace > FAST << 4 => DriftPace::Fast,
+            pace if pace > DRIFTS << 4 => DriftPace::Slow,
+            _ => DriftPace::Still,
         }
     }
 }
@@ -166,8 +166,8 @@ impl Consensus {
     }
 
     /// How fast a panel drifts, or did in the last seconds.
-    pub fn pace(&self, panel: u8) -> Pace {
-        self.panels.get(usize::from(panel)).map_or(Pace::Still, PanelDrift::pace)
+    pub fn pace(&self, panel: u8) -> DriftPace {
+        self.panels.get(usize::from(panel)).map_or(DriftPace::Still, PanelDrift::pace)
     }
 
     /// True if one of the panels drifts fast in this turn.
@@ -243,7 +243,7 @@ impl Consensus {
         let faded = panel.pace.saturating_sub((panel.pace >> FADES) + 1);
         panel.pace = panel.mean.unsigned_abs().max(faded);
         self.fast = self.panels.iter().any(|panel| panel.in_turn().abs() > FAST);
-        self.was_fast = self.panels.iter().any(|panel| panel.pace() == Pace::Fast);
+        self.was_fast = self.panels.iter().any(|panel| panel.pace() == DriftPace::Fast);
     }
 }
 

@@ -8,7 +8,7 @@
 //! is held for long would drift apart from their panel and join it. A held contact is therefore never absorbed
 //! by the baseline, nor is a slow one once it shows.
 //!
-//! While a panel drifts, what grows no faster is drift ([`Pace`]): a contact holds the baseline where it lay
+//! While a panel drifts, what grows no faster is drift ([`DriftPace`]): a contact holds the baseline where it lay
 //! when it last rose faster. While drift is fast, a contact that may be nothing else holds none, so that it
 //! ends; and a taxel with less than a sixteenth of a contact's peak does not belong to the contact: otherwise
 //! the surroundings of a contact would not follow, drift away from the panel, join the
@@ -17,7 +17,7 @@
 
 use super::consensus::Consensus;
 #[cfg(doc)]
-use super::consensus::Pace;
+use super::consensus::DriftPace;
 use super::feedback::Feedback;
 use super::missed::Followed;
 use super::rates::{OWN, beside, under};

@@ -1,6 +1,6 @@
 //! Feedback from one frame's contacts to the next frame.
 
-use super::consensus::Pace;
+use super::consensus::DriftPace;
 use crate::garment::Rect;
 use heapless::Vec;
 
@@ -61,9 +61,9 @@ impl<const CONTACTS: usize> Feedback<CONTACTS> {
     /// True if a taxel that shows `shown` counts lies within one taxel of a contact that holds its baseline.
     /// While its panel drifts fast, a contact that may be drift holds nothing, and any other one what shows a
     /// sixteenth of its peak.
-    pub(crate) fn presses(&self, panel: u8, row: u16, column: u16, shown: u16, pace: Pace) -> bool {
+    pub(crate) fn presses(&self, panel: u8, row: u16, column: u16, shown: u16, pace: DriftPace) -> bool {
         let near = |held: &&Pressed| held.rect.holds(panel, row, column, 1);
-        let holds = |held: &Pressed| pace != Pace::Fast || !held.slow && shown >= held.peak / 16;
+        let holds = |held: &Pressed| pace != DriftPace::Fast || !held.slow && shown >= held.peak / 16;
         self.home.iter().chain(&self.beyond).filter(near).any(holds)
     }
 
@@ -96,7 +96,8 @@ mod tests {
         feedback.home.push(Pressed { rect: rect(0, 2, 9), peak: 160, slow: false }).unwrap();
         feedback.beyond.push(Pressed { rect: rect(1, 0, 3), peak: 160, slow: false }).unwrap();
         let held = |feedback: &Feedback<4>, panel, column, shown| {
-            [Pace::Still, Pace::Slow, Pace::Fast].map(|pace| feedback.presses(panel, 3, column, shown, pace))
+            [DriftPace::Still, DriftPace::Slow, DriftPace::Fast]
+                .map(|pace| feedback.presses(panel, 3, column, shown, pace))
         };
         assert_eq!(held(&feedback, 0, 9, 10), [true; 3]);
         assert_eq!(held(&feedback, 0, 9, 9), [true, true, false]);

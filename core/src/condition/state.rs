@@ -1,6 +1,6 @@
 //! State of the stage: the calibration of every taxel and the last image.
 
-use crate::baseline::consensus::Pace;
+use crate::baseline::consensus::DriftPace;
 use crate::baseline::progress::Tare;
 use crate::baseline::tracking::Tracking;
 use crate::calibrate::calibration::TaxelCalibration;
@@ -111,7 +111,7 @@ impl<const TAXELS: usize> ConditionState<TAXELS> {
     }
 
     /// How fast a panel drifts, or did in the last seconds.
-    pub(crate) fn pace(&self, panel: u8) -> Pace {
+    pub(crate) fn pace(&self, panel: u8) -> DriftPace {
         self.tracking.consensus.pace(panel)
     }
 

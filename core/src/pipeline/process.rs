@@ -4,7 +4,7 @@ use super::compose::Pipeline;
 use super::percept::Percept;
 use super::probe::{Probe, Stage};
 use super::state::{CONTACTS, PipelineState};
-use crate::baseline::consensus::Pace;
+use crate::baseline::consensus::DriftPace;
 use crate::body::Placed;
 use crate::condition::{ConditionState, Image, Sampled};
 use crate::contact::ContactState;
@@ -158,7 +158,7 @@ impl Pipeline {
             drifted: condition.drifted(panel),
             rise: condition.unexplained_rise(panel),
             least: least.min(u16::MAX.into()) as u16,
-            still: condition.pace(panel) == Pace::Still,
+            still: condition.pace(panel) == DriftPace::Still,
         }
     }
 
