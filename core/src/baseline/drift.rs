@@ -8,10 +8,10 @@
 //! is held for long would drift apart from their panel and join it. A held contact is therefore never absorbed
 //! by the baseline, nor is a slow one once it shows.
 //!
-//! While a panel drifts, what grows no faster is drift ([`DriftPace`]): a contact holds the baseline where it lay
-//! when it last rose faster. While drift is fast, a contact that may be nothing else holds none, so that it
-//! ends; and a taxel with less than a sixteenth of a contact's peak does not belong to the contact: otherwise
-//! the surroundings of a contact would not follow, drift away from the panel, join the
+//! While a panel drifts, what grows no faster is drift ([`DriftPace`]): a contact holds the baseline where it
+//! lay when it last rose faster. While drift is fast, a contact that may be nothing else holds none, so that
+//! it ends; and a taxel with less than a sixteenth of a contact's peak does not belong to the contact:
+//! otherwise the surroundings of a contact would not follow, drift away from the panel, join the
 //! contact, and stop their own surroundings. A taxel on which the garment's fold presses moves by the common
 //! drift alone. Only a tared baseline drifts; recordings are used unchanged.
 
