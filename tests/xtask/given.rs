@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Debian's packages that run programs of other systems.
-const EMULATORS: [&str; 3] = ["wine64", "qemu-user-static", "libc6-arm64-cross"];
+const EMULATORS: [&str; 3] = ["wine", "qemu-user-static", "libc6-arm64-cross"];
 
 /// Makes and walks; returns sizes and what each walk took.
 pub fn campaign(log: &Path) -> End<Vec<String>> {
