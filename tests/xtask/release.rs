@@ -105,12 +105,11 @@ impl Release {
             zig
         };
         build.args(["--release", "--locked", "--package", "taxel-cli", "--bin", "taxel"]);
-        // Linux: against the C library of 2018.
-        let glibc = if target.contains("linux") { ".2.28" } else { "" };
+        let glibc = if target.contains("linux") { format!(".{}", wheels::GLIBC) } else { String::new() };
         build
             .args(["--features", supply::FEATURES, "--target", &format!("{target}{glibc}")])
             .current_dir(paths::root());
-        self.run(target, &mut build)?;
+        self.run(target, target, &mut build)?;
         let (program, end) =
             if target.contains("windows") { ("taxel.exe", "zip") } else { ("taxel", "tar.gz") };
         let built = paths::target().join(target).join("release").join(program);
@@ -124,7 +123,7 @@ impl Release {
     /// The wheel for a system.
     fn wheel(&self, target: &str) -> Result<(), String> {
         let wheel = wheels::maturin(&self.tools, "build", &wheels::options(target), target, |build| {
-            self.run(&format!("wheel for {target}"), build)
+            self.run(&format!("wheel for {target}"), target, build)
         })?;
         self.pack("wheel", [&wheel, &self.licences, &self.out])
     }
@@ -132,7 +131,7 @@ impl Release {
     /// The source distribution.
     fn source(&self) -> Result<(), String> {
         let source = wheels::maturin(&self.tools, "sdist", &[], "source", |make| {
-            self.run("source distribution", make)
+            self.run("source distribution", "", make)
         })?;
         self.copy(&source, &source.file_name().unwrap_or_default().to_string_lossy())
     }
@@ -153,15 +152,15 @@ impl Release {
         Ok(())
     }
 
-    /// Runs a build so that its product does not depend on the folder and the moment.
-    fn run(&self, what: &str, build: &mut Command) -> Result<(), String> {
+    /// Runs a build for a target so that its product does not depend on the folder and the moment.
+    fn run(&self, what: &str, target: &str, build: &mut Command) -> Result<(), String> {
         let start = Instant::now();
+        // Of programs and wheels alike, which share what is built of their dependencies.
+        build.envs(wheels::linker(target)?).env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         build.env("CARGO_ENCODED_RUSTFLAGS", remapped("rustc".as_ref())?.join("\x1f"));
         build.env("SOURCE_DATE_EPOCH", &self.time).env("CARGO_INCREMENTAL", "0");
         // Where zig is found.
         build.env("PATH", process::path_with(&wheels::folder())?);
-        // Of programs and wheels alike, which share what is built of their dependencies.
-        build.env("CARGO_PROFILE_RELEASE_STRIP", "symbols");
         process::run_into(build, &self.log).map_err(|why| format!("{why}, see {}", self.log.display()))?;
         println!("{what}: {} s", start.elapsed().as_secs());
         Ok(())

@@ -9,7 +9,9 @@ use std::process::Command;
 /// Targets of the wheels: that of the machine on which they are tested, and the other.
 pub const HERE: &str = "x86_64-unknown-linux-gnu";
 pub const AARCH64: &str = "aarch64-unknown-linux-gnu";
-/// What the wheels may need of a machine: glibc 2.28, the first with the call that exchanges two names (`renameat2`).
+/// The C library that programs and wheels need on Linux: the first with the call that exchanges two names (`renameat2`).
+pub const GLIBC: &str = "2.28";
+/// That library, as wheels name it.
 const PLATFORM: &str = "manylinux_2_28";
 
 /// Builds the wheel for x86-64.
@@ -86,6 +88,24 @@ pub fn options(target: &str) -> Vec<&str> {
         _ => &[],
     };
     [&["--release", "--locked", "--target", target], linked].concat()
+}
+
+/// The linker for a target, for programs and wheels alike: cargo builds anew what another linker's path was told for, and
+/// cargo-zigbuild and maturin each write one of their own. None where zig does not link.
+pub fn linker(target: &str) -> Result<Option<(String, PathBuf)>, String> {
+    let zig = match target.split('-').collect::<Vec<_>>()[..] {
+        [machine, _, "linux", "gnu"] => format!("{machine}-linux-gnu.{GLIBC}"),
+        [machine, _, "windows", "gnu"] => format!("{machine}-windows-gnu"),
+        _ => return Ok(None),
+    };
+    let script = folder().join(format!("bin/zigcc-{zig}"));
+    let text =
+        format!("#!/bin/sh\nexec cargo-zigbuild zig cc -- -g -fno-sanitize=all -target {zig} \"$@\"\n");
+    let fail = |error: std::io::Error| format!("{}: {error}", script.display());
+    std::fs::write(&script, text).map_err(fail)?;
+    process::run(Command::new("chmod").arg("+x").arg(&script))?;
+    let variable = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
+    Ok(Some((variable, script)))
 }
 
 /// Runs a command of maturin that makes one file, in a folder of its own.
