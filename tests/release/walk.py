@@ -1,8 +1,9 @@
-"""Walks through a program that is given away, as a user would: it starts, simulates, records, survives a kill, repairs,
-shows, exports, and refuses in sentences. `walk.py [RUNNER...] PROGRAM`; RUNNER is wine or an emulator.
+"""Walks through a program that is given away, as a user would: it starts, simulates, records, ends by Ctrl-C, survives a
+kill, repairs, shows, exports, and refuses in sentences. `walk.py [RUNNER...] PROGRAM`; RUNNER is wine or an emulator.
 
 Prints what it took. The first step that does not hold ends it with an error."""
 
+import signal
 import subprocess
 import sys
 import tempfile
@@ -46,6 +47,8 @@ class Walk:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
+            # On Windows a group of its own is what can be interrupted alone.
+            creationflags=getattr(subprocess, "CREATE_NEW_PROCESS_GROUP", 0),
         )
 
     def first_contact(self) -> None:
@@ -63,11 +66,27 @@ class Walk:
         check(len(seen) == 2, f"live --json: only {seen} came")
         print(", ".join(f"first {kind} after {at:.2f} s" for kind, at in seen.items()))
 
+    def recording(self, name: str) -> "subprocess.Popen[str]":
+        """Begins a recording of an hour; returns once some of it is written."""
+        record = self.start("record", "sim:pat", "-o", name, "--for", "1h", "--realtime")
+        file = self.folder / name
+        wait(lambda: file.exists() and file.stat().st_size > 50_000, f"{name} grows")
+        return record
+
+    def interrupted(self) -> None:
+        """Ctrl-C ends a recording that is whole."""
+        if self.command[0] == "wine":
+            print("not run: Ctrl-C, which Wine hands on from a terminal alone")
+            return
+        record = self.recording("interrupted.mcap")
+        record.send_signal(getattr(signal, "CTRL_BREAK_EVENT", signal.SIGINT))
+        said = record.communicate(timeout=PATIENCE_S)[0]
+        check(record.returncode == 0, f"Ctrl-C: status {record.returncode}: {said}")
+        self.run("info", "interrupted.mcap", "--check")
+
     def killed(self) -> None:
         """A recording that is killed loses nothing that was written."""
-        record = self.start("record", "sim:pat", "-o", "killed.mcap", "--for", "1h", "--realtime")
-        file = self.folder / "killed.mcap"
-        wait(lambda: file.exists() and file.stat().st_size > 50_000, "the recording grows")
+        record = self.recording("killed.mcap")
         record.kill()
         record.wait()
         self.run("info", "killed.mcap", says="repair")
@@ -96,6 +115,7 @@ class Walk:
         self.run("record", "sim:pat", "-o", "pat.mcap", "--for", "2s", status=1, says="--force")
         self.run("record", "sim:pat", "-o", "pat.mcap", "--for", "2s", "--force")
         self.run("info", "pat.mcap", "--check")
+        self.interrupted()
         self.killed()
         self.page("pat.mcap")
         self.run("export", "pat.mcap", "--to", "csv", "-o", "pat.csv", "--contacts")
