@@ -16,6 +16,10 @@ pub const TARGETS: [&str; 3] = [wheels::HERE, wheels::AARCH64, "x86_64-pc-window
 const MACOS: [&str; 2] = ["aarch64-apple-darwin", "x86_64-apple-darwin"];
 /// Files that lie beside the program, from the repository.
 const BESIDE: [&str; 5] = ["README.md", "CHANGELOG.md", "LICENSE-MIT", "LICENSE-APACHE", "examples"];
+/// Options of the program's build, before its features. The wheel's package is selected, too, though not built: the
+/// dependencies then have the features that the wheel needs, and are built once.
+const PROGRAM: &str =
+    "--package taxel-cli --package taxel-python --bin taxel --no-default-features --features";
 /// Images of the firmware: the end of their name, and their features.
 const IMAGES: [(&str, &[&str]); 2] = [("", &features::ALL), ("-contacts", &[])];
 
@@ -104,11 +108,11 @@ impl Release {
             zig.arg("zigbuild");
             zig
         };
-        build.args(["--release", "--locked", "--package", "taxel-cli", "--bin", "taxel"]);
         let glibc = if target.contains("linux") { format!(".{}", wheels::GLIBC) } else { String::new() };
         build
-            .args(["--features", supply::FEATURES, "--target", &format!("{target}{glibc}")])
-            .current_dir(paths::root());
+            .args(["--release", "--locked", "--target", &format!("{target}{glibc}")])
+            .args(PROGRAM.split(' '));
+        build.arg([supply::FEATURES, "taxel-python/full"].join(",")).current_dir(paths::root());
         self.run(target, target, &mut build)?;
         let (program, end) =
             if target.contains("windows") { ("taxel.exe", "zip") } else { ("taxel", "tar.gz") };
