@@ -3,6 +3,7 @@ kill, repairs, shows, exports, and refuses in sentences. `walk.py [RUNNER...] PR
 
 Prints what it took. The first step that does not hold ends it with an error."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -39,11 +40,12 @@ class Walk:
         print(f"{time.monotonic() - start:6.2f} s  {shown}")
         return said
 
-    def start(self, *words: str) -> "subprocess.Popen[str]":
+    def start(self, *words: str, terminal: int = subprocess.DEVNULL) -> "subprocess.Popen[str]":
+        own = [] if terminal == subprocess.DEVNULL else ["setsid", "--ctty"]
         return subprocess.Popen(
-            [*self.command, *words],
+            [*own, *self.command, *words],
             cwd=self.folder,
-            stdin=subprocess.DEVNULL,
+            stdin=terminal,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             encoding="utf-8",
@@ -67,20 +69,23 @@ class Walk:
         check(len(seen) == 2, f"live --json: only {seen} came")
         print(", ".join(f"first {kind} after {at:.2f} s" for kind, at in seen.items()))
 
-    def recording(self, name: str) -> "subprocess.Popen[str]":
+    def recording(self, name: str, terminal: int = subprocess.DEVNULL) -> "subprocess.Popen[str]":
         """Begins a recording of an hour; returns once some of it is written."""
-        record = self.start("record", "sim:pat", "-o", name, "--for", "1h", "--realtime")
+        record = self.start("record", "sim:pat", "-o", name, "--for", "1h", "--realtime", terminal=terminal)
         file = self.folder / name
         wait(lambda: file.exists() and file.stat().st_size > 50_000, f"{name} grows")
         return record
 
     def interrupted(self) -> None:
         """Ctrl-C ends a recording that is whole."""
-        if self.command[0] == "wine":
-            print("not run: Ctrl-C, which Wine hands on from a terminal alone")
-            return
-        record = self.recording("interrupted.mcap")
-        record.send_signal(getattr(signal, "CTRL_BREAK_EVENT", signal.SIGINT))
+        if sys.platform != "win32" and self.command[0] == "wine":
+            # Wine hands it on from a terminal alone.
+            keyboard, terminal = os.openpty()
+            record = self.recording("interrupted.mcap", terminal)
+            os.write(keyboard, b"\x03")
+        else:
+            record = self.recording("interrupted.mcap")
+            record.send_signal(getattr(signal, "CTRL_BREAK_EVENT", signal.SIGINT))
         said = record.communicate(timeout=PATIENCE_S)[0]
         check(record.returncode == 0, f"Ctrl-C: status {record.returncode}: {said}")
         self.run("info", "interrupted.mcap", "--check")
