@@ -112,7 +112,8 @@ fn a_held_contact_does_not_grow_by_drift() {
         let seconds = if is_campaign() { 300.0 } else { 90.0 };
         let felt = feel(&trial.touched("palm", 10.0, 30.0, 0.3, seconds), 30.3 + seconds);
         let first = felt.pressure(32.0, 37.0);
-        let most = felt.course.iter().filter(|(t, ..)| *t > 37.0).map(|(_, total, _)| *total).fold(0.0, f64::max);
+        let most =
+            felt.course.iter().filter(|(t, ..)| *t > 37.0).map(|(_, total, _)| *total).fold(0.0, f64::max);
         println!("{rate} counts/s: {first:.0} counts, then at most {most:.0}");
         assert!(most <= 2.0 * first, "{rate} counts/s: {first}, then {most}");
     }
