@@ -153,7 +153,7 @@ impl Consensus {
     /// Least peak that is clear of the noise of each panel, counts: five times its standard deviation, which is
     /// a quarter more than the mean distance.
     pub fn clear_of_noise(&self) -> [u16; PANELS] {
-        self.noise.map(|noise| (noise_of(noise) * 25 >> 10) as u16)
+        self.noise.map(|noise| ((noise_of(noise) * 25) >> 10) as u16)
     }
 
     /// Rise of a peak within half a second that drift and noise of a panel may cause, counts: four for a patch,

@@ -33,11 +33,12 @@ impl Observer for Seen {
     }
 }
 
-/// Path of a test's file in the build folder, without the files of an earlier run: a recording without frames would
-/// not replace them.
+/// Path of a test's file in a folder of these tests, without the files of an earlier run: a recording without frames
+/// would not replace them. Other tests that take this file run at the same time.
 pub fn file(name: &str) -> PathBuf {
     static FOLDER: LazyLock<PathBuf> = LazyLock::new(|| {
-        let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("record");
+        let folder =
+            Path::new(env!("CARGO_TARGET_TMPDIR")).join(concat!("record-", env!("CARGO_CRATE_NAME")));
         _ = std::fs::remove_dir_all(&folder);
         std::fs::create_dir_all(&folder).unwrap();
         folder
