@@ -82,30 +82,49 @@ pub fn add_target(target: &str, log: &Path) -> Result<(), String> {
 
 /// Options of maturin for a wheel that is given away.
 pub fn options(target: &str) -> Vec<&str> {
-    let linked: &[&str] = match target {
-        _ if target.contains("linux") => &["--zig", "--compatibility", PLATFORM],
-        _ if target.contains("windows") => &["--zig"],
-        _ => &[],
-    };
+    // For Windows, maturin's own `--zig` has the linker export a name with a dot, which is none.
+    let linked: &[&str] =
+        if target.contains("linux") { &["--zig", "--compatibility", PLATFORM] } else { &[] };
     [&["--release", "--locked", "--target", target], linked].concat()
 }
 
-/// The linker for a target, for programs and wheels alike: cargo builds anew what another linker's path was told for, and
-/// cargo-zigbuild and maturin each write one of their own. None where zig does not link.
-pub fn linker(target: &str) -> Result<Option<(String, PathBuf)>, String> {
+/// Hands the linker's words to zig. A list of exported names is a file to it, and no option of the linker.
+const LINKER: &str = "#!/bin/sh
+for word do
+    shift
+    case \"$word\" in -Wl,*.def) word=\"${word#-Wl,}\" ;; esac
+    set -- \"$@\" \"$word\"
+done
+exec cargo-zigbuild zig cc -- -g -fno-sanitize=all -target TARGET \"$@\"
+";
+/// Makes libraries of a DLL's names, as rustc asks for them.
+const DLLTOOL: &str = "#!/bin/sh\nexec python3 -m ziglang dlltool \"$@\"\n";
+
+/// Variables by which programs and wheels for a target have the same linker: cargo builds anew what was built for another
+/// one, and cargo-zigbuild and maturin each bring their own. None where zig does not link.
+pub fn linker(target: &str) -> Result<Vec<(String, String)>, String> {
     let zig = match target.split('-').collect::<Vec<_>>()[..] {
         [machine, _, "linux", "gnu"] => format!("{machine}-linux-gnu.{GLIBC}"),
         [machine, _, "windows", "gnu"] => format!("{machine}-windows-gnu"),
-        _ => return Ok(None),
+        _ => return Ok(Vec::new()),
     };
-    let script = folder().join(format!("bin/zigcc-{zig}"));
-    let text =
-        format!("#!/bin/sh\nexec cargo-zigbuild zig cc -- -g -fno-sanitize=all -target {zig} \"$@\"\n");
-    let fail = |error: std::io::Error| format!("{}: {error}", script.display());
-    std::fs::write(&script, text).map_err(fail)?;
-    process::run(Command::new("chmod").arg("+x").arg(&script))?;
+    let linker = program(&format!("zigcc-{zig}"), &LINKER.replace("TARGET", &zig))?;
     let variable = format!("CARGO_TARGET_{}_LINKER", target.to_uppercase().replace('-', "_"));
-    Ok(Some((variable, script)))
+    let mut variables = vec![(variable, linker)];
+    if target.contains("windows") {
+        program("x86_64-w64-mingw32-dlltool", DLLTOOL)?;
+        // As cargo-zigbuild has it: zig brings these libraries.
+        variables.push(("WINAPI_NO_BUNDLED_LIBRARIES".into(), "1".into()));
+    }
+    Ok(variables)
+}
+
+/// Writes a script among the programs of the environment; its path.
+fn program(name: &str, text: &str) -> Result<String, String> {
+    let script = folder().join("bin").join(name).display().to_string();
+    std::fs::write(&script, text).map_err(|error| format!("{script}: {error}"))?;
+    process::run(Command::new("chmod").args(["+x", &script]))?;
+    Ok(script)
 }
 
 /// Runs a command of maturin that makes one file, in a folder of its own.
