@@ -173,7 +173,8 @@ def compare(one: Path, other: Path) -> None:
     a, b = digests(one), digests(other)
     differ = [name for name in sorted(a.keys() | b.keys()) if a.get(name) != b.get(name)]
     for name in sorted(a.keys() | b.keys()):
-        print(f"{name}: {'DIFFERS' if name in differ else 'equal'}")
+        missing = [folder for folder, known in ((one, a), (other, b)) if name not in known]
+        print(f"{name}: {f'NOT IN {missing[0]}' if missing else 'DIFFERS' if name in differ else 'equal'}")
         if name in differ and name in a and name in b:
             inside, outside = members(one / name), members(other / name)
             unequal = sorted(m for m in inside.keys() | outside.keys() if inside.get(m) != outside.get(m))

@@ -42,11 +42,13 @@ class Pack(unittest.TestCase):
             (self.folder / name).mkdir()
             pack.archive(self.folder / name / "taxel-1.zip", self.content(f"of {name}", program, 0))
             (self.folder / name / "same.txt").write_text("same")
+        (self.folder / "one/only.txt").write_text("only")
         said = io.StringIO()
         with redirect_stdout(said), self.assertRaises(SystemExit) as end:
             pack.compare(self.folder / "one", self.folder / "two")
-        self.assertEqual(said.getvalue(), "same.txt: equal\ntaxel-1.zip: DIFFERS\n  taxel-1/taxel\n")
-        self.assertEqual(end.exception.code, "1 of 2 files differ")
+        lines = [f"only.txt: NOT IN {self.folder / 'two'}", "same.txt: equal", "taxel-1.zip: DIFFERS", "  taxel-1/taxel"]
+        self.assertEqual(said.getvalue().splitlines(), lines)
+        self.assertEqual(end.exception.code, "2 of 3 files differ")
 
     def test_a_wheel_gets_the_licences_and_its_record_holds(self) -> None:
         built, licences = self.folder / "taxel-1-py3-none-any.whl", self.folder / "THIRD-PARTY.txt"
