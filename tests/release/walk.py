@@ -133,7 +133,7 @@ class Walk:
         self.run("live", "pat.mcap", "--json")
         self.run("ports")
         self.run("live", "serial:COM99", status=3, says="no such port")
-        self.run("live", "absent.mcap", status=1, says="absent.mcap")
+        self.run("live", "absent.mcap", status=1, says="absent.mcap cannot be read: no such file or directory")
         self.run("record", "sim:pat", "-o", "none/pat.mcap", status=1, says="none")
         left = sorted(path.name for path in self.folder.iterdir() if path.name.endswith(".part"))
         check(not left, f"left behind: {left}")

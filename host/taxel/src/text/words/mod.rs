@@ -47,27 +47,38 @@ pub fn cause(error: &(dyn Error + 'static)) -> String {
     if let Some(error) = error.downcast_ref::<::toml::de::Error>() {
         return plain(error.message());
     }
-    io(&error.to_string())
+    io(&error.to_string(), cfg!(windows))
 }
 
+/// Numbers of errors on Windows, and what other systems say of the same: a sentence is the same everywhere.
+const WINDOWS: [(&str, &str); 6] = [
+    ("2", "no such file or directory"),
+    ("3", "no such file or directory"),
+    ("5", "permission denied"),
+    ("112", "no space left on device"),
+    ("10054", "connection reset by peer"),
+    ("10061", "connection refused"),
+];
+
 /// The system's message without its number, in lower case.
-fn io(message: &str) -> String {
+fn io(message: &str, is_windows: bool) -> String {
     match message {
         "stream did not contain valid UTF-8" => return "it is not text (UTF-8)".into(),
         "failed to fill whole buffer" => return "it ends too early".into(),
         _ => {}
     }
     let mut text = message.trim_start_matches("i/o error: ").to_string();
-    while let Some(start) = text.find(" (os error ") {
-        let Some(length) = text[start..].find(')') else { break };
-        // Windows ends the sentence itself.
-        let end = text[..start].trim_end_matches('.').len();
-        text.replace_range(end..=start + length, "");
-        // The text before the number is a sentence of the system.
-        let begin = text[..end].rfind(": ").map_or(0, |at| at + 2);
-        if let Some(lower) = text[begin..].chars().next().map(|first| first.to_lowercase().to_string()) {
-            text.replace_range(begin..begin + text[begin..].chars().next().map_or(0, char::len_utf8), &lower);
-        }
+    while let Some((before, after)) = text.split_once(" (os error ") {
+        let Some((number, rest)) = after.split_once(')') else { break };
+        // The text before the number is a sentence of the system, which Windows ends itself.
+        let (begin, said) = before
+            .rsplit_once(": ")
+            .map_or(("", before), |(_, said)| before.split_at(before.len() - said.len()));
+        let known = WINDOWS.iter().find(|(of, _)| is_windows && *of == number).map(|(_, words)| *words);
+        let said = known.unwrap_or(said.trim_end_matches('.'));
+        let mut letters = said.chars();
+        let first = letters.next().map(|first| first.to_lowercase().to_string()).unwrap_or_default();
+        text = format!("{begin}{first}{}{rest}", letters.as_str());
     }
     text
 }
@@ -85,7 +96,10 @@ mod tests {
         let deep = crate::Error::from(missing).context("x.toml cannot be read");
         assert_eq!(sentence(&deep), "x.toml cannot be read: no such file or directory");
         let windows = "x.toml cannot be read: The system cannot find the file specified. (os error 2): y";
-        assert_eq!(io(windows), "x.toml cannot be read: the system cannot find the file specified: y");
+        assert_eq!(io(windows, true), "x.toml cannot be read: no such file or directory: y");
+        let other = "x.toml cannot be read: The handle is invalid. (os error 6): y";
+        assert_eq!(io(other, true), "x.toml cannot be read: the handle is invalid: y");
+        assert_eq!(io("No such process (os error 3)", false), "no such process");
         let number = serde_json::from_str::<u8>("-3").context("age").unwrap_err();
         assert_eq!(
             sentence(&number),

@@ -18,7 +18,7 @@ pub fn plain(message: &str) -> String {
         .or_else(|| range(&message))
         .or_else(|| length(&message))
         .or_else(|| name(&message))
-        .unwrap_or_else(|| crate::text::words::io(&message))
+        .unwrap_or_else(|| crate::text::words::io(&message, cfg!(windows)))
 }
 
 /// `invalid type: FOUND, expected WANTED`, and `invalid value: ...`
