@@ -23,14 +23,14 @@ pub struct DenseCondition {
     /// would be, had they drifted as it has.
     common: Vec<([i32; 2], Option<Vec<i32>>)>,
     /// How fast each panel drifts of late.
-    pace: Vec<Pace>,
+    pace: Vec<DensePace>,
     /// What its witnesses miss.
-    missed: Vec<Missed>,
+    missed: Vec<DenseMissed>,
 }
 
 /// Mean drift of a panel in a turn, and its greatest size of late, sixteenths of a count.
 #[derive(Clone, Copy, Default)]
-struct Pace {
+struct DensePace {
     mean: i32,
     greatest: i32,
 }
@@ -39,7 +39,7 @@ struct Pace {
 /// the last one (whole counts, and 256ths left over), and sums of it in the way of the drift and of the
 /// drift, which fade.
 #[derive(Clone, Copy, Default)]
-struct Missed {
+struct DenseMissed {
     now: (i32, i32),
     step: i32,
     left: i32,
@@ -67,8 +67,8 @@ impl DenseCondition {
             slot: 0,
             due: 0,
             points: Vec::new(),
-            pace: vec![Pace::default(); common.len()],
-            missed: vec![Missed::default(); common.len()],
+            pace: vec![DensePace::default(); common.len()],
+            missed: vec![DenseMissed::default(); common.len()],
             common,
         }
     }
@@ -76,8 +76,8 @@ impl DenseCondition {
     /// No drift is known, as after a baseline was set.
     pub fn forget(&mut self) {
         self.common.fill(([0; 2], None));
-        self.pace.fill(Pace::default());
-        self.missed.fill(Missed::default());
+        self.pace.fill(DensePace::default());
+        self.missed.fill(DenseMissed::default());
     }
 
     /// The image of a frame; then the baseline follows drift.
@@ -200,7 +200,7 @@ impl DenseCondition {
     /// Ends a turn in which the witnesses of a panel told its drift.
     fn miss(&mut self, panel: usize) {
         let common = self.in_turn(panel);
-        let Missed { now: (sum, count), left, lost, way, .. } = &mut self.missed[panel];
+        let DenseMissed { now: (sum, count), left, lost, way, .. } = &mut self.missed[panel];
         let mean = *sum * 256 / (*count).max(1);
         *lost += mean * self.pace[panel].mean.signum() - lost.div_euclid(128);
         *way += 256 * common.abs() - way.div_euclid(128);
@@ -272,7 +272,7 @@ impl DenseCondition {
             self.miss(panel);
         }
         let in_turn = self.in_turn(panel);
-        let Pace { mean, greatest } = &mut self.pace[panel];
+        let DensePace { mean, greatest } = &mut self.pace[panel];
         *mean += (16 * in_turn - *mean).div_euclid(8);
         *greatest = mean.abs().max((*greatest - *greatest / 64 - 1).max(0));
     }
